@@ -119,7 +119,7 @@ pub fn surface_decisions(scene: &crate::scene::Scene, by_evidence: bool) -> Surf
     let mut mesh = mesh::Mesh::build(scene.to_soup());
     let crease_deg = crate::lines::LineOptions::default().crease_deg;
     let patches = if by_evidence {
-        patches_by_evidence(&mut mesh, crease_deg)
+        patches_by_evidence(&mut mesh, crease_deg, false)
     } else {
         Patches::new(&mesh, crease_deg, false)
     };

@@ -40,6 +40,8 @@ pub(crate) enum Surfaces {
     /// By statistics of each connected component.
     #[default]
     Statistics,
+    /// By evidence in connected components that the file shades smoothly, by statistics elsewhere.
+    Shaded,
     /// By the normals of the file, edge by edge and patch by patch; without normals by the turns around an edge
     /// and the shape of a patch.
     Evidence,

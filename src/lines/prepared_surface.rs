@@ -11,6 +11,7 @@ use crate::scene::Camera;
 use crate::surface::creases::pose_creases::pose_creases;
 use crate::surface::evidence::evidence_layout::patches_by_evidence;
 use crate::surface::normals::file_normals::file_cosines;
+use crate::surface::normals::straight_edges;
 use crate::surface::patches::patch_layout;
 use crate::surface::refine::mesh_splice::{MeshCuts, RefinedMesh, splice};
 use crate::surface::{EvenRuns, HardEdges, MeshSource, Patches, SmoothNormals};
@@ -63,9 +64,9 @@ impl Surface {
             let (hard, origins, pieces) = patch_layout::classify_faces(&mesh, options.crease_deg);
             return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
         }
-        let by_evidence = options.surfaces == Surfaces::Evidence && options.contours == Contours::Auto;
-        let patches = if by_evidence {
-            patches_by_evidence(&mut mesh, options.crease_deg)
+        let asks_evidence = options.surfaces != Surfaces::Statistics && options.contours == Contours::Auto;
+        let patches = if asks_evidence {
+            patches_by_evidence(&mut mesh, options.crease_deg, options.surfaces == Surfaces::Shaded)
         } else {
             Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth)
         };
@@ -73,8 +74,8 @@ impl Surface {
             mesh.remove_normals(|face| !patches.trusts_file_normals[face as usize]);
         }
         let smooth = normals(&mesh, &patches, &[]);
-        let rounds_rims = by_evidence && options.round_rims == RoundRims::Auto;
-        let even_runs = rounds_rims.then(|| EvenRuns::find(&mesh, &smooth));
+        let rounds_rims = !patches.by_evidence.is_empty() && options.round_rims == RoundRims::Auto;
+        let even_runs = rounds_rims.then(|| EvenRuns::find(&mesh, &smooth, &patches.by_evidence));
         let surface = Self {
             even_runs,
             mesh,
@@ -264,7 +265,12 @@ impl RefinedSurface {
 /// Normals of the rounded patches. Folds (edges, ascending) separate patches too.
 pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
     let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
-    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted)
+    let mut smooth = SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted);
+    if !patches.by_evidence.is_empty() {
+        let is_asked = |edge: usize| patches.by_evidence[mesh.edges.faces(edge).list()[0] as usize];
+        smooth.straight = smooth.straight.union(&straight_edges::level(mesh, &smooth, is_asked));
+    }
+    smooth
 }
 
 /// Whether an edge separates two rounded surfaces, by its angle and surroundings or by the file's normals.
@@ -274,12 +280,13 @@ fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
         return true;
     }
     let hard = patches.hard.is_hard(edge);
-    if patches.has_all_borders {
+    let face = mesh.edges.faces(edge).list()[0] as usize;
+    if patches.by_evidence.get(face) == Some(&true) {
         return hard;
     }
     match file_normals_differ(mesh, edge) {
         None => hard,
-        Some(differ) => differ || (hard && !patches.figure[mesh.edges.faces(edge).list()[0] as usize]),
+        Some(differ) => differ || (hard && !patches.figure[face]),
     }
 }
 

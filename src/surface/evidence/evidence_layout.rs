@@ -22,11 +22,58 @@ use crate::surface::{HardEdges, Patches};
 /// Share of its turn that a soft edge counts for.
 const SOFT_TURN_SHARE: f32 = 0.5;
 
-/// Classifies the surfaces of a mesh whose creases turn by more than `crease_deg` degrees.
+/// Classifies the surfaces of a mesh whose creases turn by more than `crease_deg` degrees, by evidence. With
+/// `only_shaded`, components that the file does not shade smoothly are classified by their statistics.
 #[must_use]
-pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
+pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64, only_shaded: bool) -> Patches {
     let (turns, planes, classes) = classify(mesh, false);
-    let turns = &turns;
+    let of_mesh = (&turns, &planes, &classes);
+    let (has_shaded, is_all_shaded) = classes.are_shaded();
+    if only_shaded && !has_shaded {
+        return Patches::by_statistics(mesh, of_mesh, crease_deg, false);
+    }
+    let evidence = by_evidence(mesh, of_mesh, crease_deg);
+    if !only_shaded || is_all_shaded {
+        return evidence;
+    }
+    let statistics = Patches::by_statistics(mesh, of_mesh, crease_deg, false);
+    let is_shaded = classes.map(|class| class.shading == FileShading::Curved);
+    combined(mesh, evidence, &statistics, is_shaded)
+}
+
+/// The results of evidence on the components whose faces are shaded, and of statistics on the others.
+fn combined(mesh: &Mesh, evidence: Patches, statistics: &Patches, is_shaded: Vec<bool>) -> Patches {
+    // All faces at an edge belong to one component.
+    let is_shaded_at = |edge: usize| is_shaded[mesh.edges.faces(edge).list()[0] as usize];
+    let edges = |of: fn(&Patches, usize) -> bool| {
+        EdgeSet::collect(mesh.edges.len(), |edge| {
+            of(if is_shaded_at(edge) { &evidence } else { statistics }, edge)
+        })
+    };
+    let faces = |of: fn(&Patches) -> &Vec<bool>| {
+        let (shaded, others) = (of(&evidence), of(statistics));
+        (0..is_shaded.len()).map(|face| if is_shaded[face] { shaded[face] } else { others[face] }).collect()
+    };
+    Patches {
+        hard: HardEdges::of(mesh, |edge| {
+            (if is_shaded_at(edge) { &evidence } else { statistics }).hard.is_hard(edge)
+        }),
+        sliver_creases: edges(|patches, edge| patches.sliver_creases.contains(edge)),
+        fillet_centres: edges(|patches, edge| patches.fillet_centres.contains(edge)),
+        rims: edges(|patches, edge| patches.rims.contains(edge)),
+        rounded: faces(|patches| &patches.rounded),
+        figure: faces(|patches| &patches.figure),
+        trusts_file_normals: faces(|patches| &patches.trusts_file_normals),
+        by_evidence: is_shaded,
+        ..evidence
+    }
+}
+
+fn by_evidence(
+    mesh: &mut Mesh,
+    (turns, planes, classes): (&DihedralCosines, &PlanarRegions, &ComponentClasses),
+    crease_deg: f64,
+) -> Patches {
     let shading = |face: u32| classes.class_of_face(face).shading;
     let bevels = BevelNormals::part(mesh, &planes.flat, |face| shading(face) == FileShading::Curved);
     let mesh = &*mesh;
@@ -34,7 +81,7 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
     let weight = |edge: usize| if evidence.soft.contains(edge) { SOFT_TURN_SHARE } else { 1.0 };
     let (found, rims) = crate::parallel::join(
         || HardEdges::find_weighted(mesh, turns, crease_deg, weight),
-        || rims(mesh, turns, &planes, (&evidence, &classes)),
+        || rims(mesh, turns, planes, (&evidence, classes)),
     );
     let found = found.with_set(mesh, &evidence.split);
     // The surface is given by its faces, and its lines are intended.
@@ -46,11 +93,10 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
     let may = |edge: usize| is_exact_at(edge) && !evidence.soft.contains(edge);
     let (shallow, fillet_centres) = crate::parallel::join(
         || shallow_creases(mesh, (turns, &planes.flat), crease_deg, &found, may),
-        || fillet_centres(mesh, (turns, &planes), &found, is_exact_at, crease_deg),
+        || fillet_centres(mesh, (turns, planes), &found, is_exact_at, crease_deg),
     );
     let hard = found.with(mesh, &shallow);
-    let curved =
-        CurvedFaces { mesh, turns, planes: &planes, classes: &classes, evidence: &evidence, hard: &hard };
+    let curved = CurvedFaces { mesh, turns, planes, classes, evidence: &evidence, hard: &hard };
     let (rounded, rims) = curved.find(&rims, crease_deg);
     let trusts_file_normals = (0..mesh.triangles.len() as u32)
         .map(|face| match shading(face) {
@@ -66,9 +112,9 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64) -> Patches {
         rounded,
         figure: classes.map(|class| class.origin != MeshSource::Constructed),
         origins: classes.map(|class| class.origin),
-        pieces: classes.into_pieces(),
+        pieces: classes.pieces(),
         trusts_file_normals,
-        has_all_borders: true,
+        by_evidence: vec![true; mesh.triangles.len()],
         bevels,
     }
 }

@@ -125,7 +125,7 @@ fn fans(mesh: &Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> 
     around.into_par_iter().flat_map_iter(|around| work.parted(around)).collect()
 }
 
-/// Distance from an edge to which a face and those in its plane reach.
+/// How far a face and those in its plane reach from an edge.
 fn reach(mesh: &Mesh, flat: &EdgeSet, edges: &VertexEdges, edge: usize, face: u32) -> f64 {
     let ends = mesh.edges.vertices[edge];
     let [from, to] = mesh.ends(edge);
@@ -228,5 +228,101 @@ impl Fans<'_> {
             }
         }
         means.iter().any(|mean| mean.normalize_or_zero().dot(normal.normalize_or_zero()) > MIN_MEAN_COSINE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{DihedralCosines, Soup};
+    use crate::surface::patches::planar_regions::PlanarRegions;
+
+    /// A square plate with a bevel of the given width around it, and the normal of each vertex by its weights
+    /// of the faces around it: `weight` takes the angle of a corner.
+    fn plate(bevel: f64, weight: impl Fn(f64) -> f64) -> Mesh {
+        let ring = |half: f64, z: f64| {
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+                .map(|[x, y]| DVec3::new(x * half, y * half, z))
+        };
+        let positions = [ring(2.0, 0.0), ring(2.0 + bevel, -bevel)].concat();
+        let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
+        for k in 0..4 {
+            let (next, down) = ((k + 1) % 4, 4);
+            triangles.extend([[k, k + down, next], [next, k + down, next + down]]);
+        }
+        let mut normals = vec![DVec3::ZERO; positions.len()];
+        for t in &triangles {
+            let at = t.map(|v: u32| positions[v as usize]);
+            let face = (at[1] - at[0]).cross(at[2] - at[0]).normalize();
+            for k in 0..3 {
+                let [a, b] = [1, 2].map(|step| (at[(k + step) % 3] - at[k]).normalize());
+                normals[t[k] as usize] += face * weight(acos(a.dot(b)));
+            }
+        }
+        let normals = normals.iter().map(|n| n.normalize().as_vec3().to_array()).collect();
+        Mesh::build(Soup {
+            positions,
+            normals,
+            corner_normals: triangles.clone(),
+            triangles,
+            ..Soup::default()
+        })
+    }
+
+    fn parted(mut mesh: Mesh) -> (BevelNormals, Mesh) {
+        let flat = PlanarRegions::new(&mesh, &DihedralCosines::of(&mesh)).flat;
+        let bevels = BevelNormals::part(&mut mesh, &flat, |_| true);
+        (bevels, mesh)
+    }
+
+    /// Largest tilt of the normals on the plate, as the sine.
+    fn tilt(mesh: &Mesh) -> f64 {
+        let is_top = |face: &usize| mesh.face_normals[*face][2] > 0.99;
+        let faces = (0..mesh.triangles.len()).filter(is_top);
+        faces.flat_map(|face| file_normals(mesh, face)).map(|n| n.truncate().length()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn flats_next_to_narrow_bevels_do_not_lean() {
+        for weight in [|_: f64| 1.0, |angle: f64| angle] {
+            let before = plate(0.1, weight);
+            let (bevels, mesh) = parted(before.clone());
+            assert!(tilt(&before) > 0.3 && tilt(&mesh) < 1e-6, "{} {}", tilt(&before), tilt(&mesh));
+            assert_eq!(bevels.fans.len(), 4);
+            // Bevels as wide as the plate are no bevels.
+            let wide = plate(2.0, weight);
+            assert_eq!(tilt(&parted(wide.clone()).1), tilt(&wide));
+        }
+    }
+
+    #[test]
+    fn normals_that_are_no_mean_stay() {
+        // Twice the weight for the upright faces of the bevel.
+        let mut exact = plate(0.1, |_| 1.0);
+        for normal in &mut exact.normals {
+            *normal = DVec3::new(f64::from(normal[0]) * 0.7, f64::from(normal[1]), f64::from(normal[2]))
+                .normalize()
+                .as_vec3()
+                .to_array();
+        }
+        let (bevels, mesh) = parted(exact.clone());
+        assert!(bevels.fans.is_empty());
+        assert_eq!(tilt(&mesh), tilt(&exact));
+    }
+
+    #[test]
+    fn poses_keep_the_normals_of_parted_bevels() {
+        let rest = plate(0.1, |_| 1.0);
+        let (bevels, parted) = parted(rest.clone());
+        let turned = |p: &DVec3| DVec3::new(p.x, p.z, -p.y);
+        let mut pose = parted.clone();
+        pose.positions.iter_mut().for_each(|p| *p = turned(p));
+        pose.face_normals.iter_mut().for_each(|[_, y, z]| (*y, *z) = (*z, -*y));
+        pose.normals = rest.normals.iter().map(|[x, y, z]| [*x, *z, -*y]).collect();
+        bevels.add_to(&mut pose);
+        let face = (0..pose.triangles.len()).find(|face| parted.face_normals[*face][2] > 0.99).unwrap();
+        for normal in file_normals(&pose, face) {
+            assert!(normal.distance(DVec3::Y) < 1e-6, "{normal}");
+        }
     }
 }

@@ -4,11 +4,15 @@
 use glam::DVec3;
 
 use crate::mesh::EdgeSet;
-use crate::mesh::{EdgeFaces, Mesh};
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::surface::SmoothNormals;
 
 /// Minimum ratio between the length of a straight edge and the lengths next to it and after its end.
 const MIN_LENGTH_RATIO: f64 = 4.0;
+
+/// Maximum turn of the normals along a level edge, times its length and divided by the width of the face. An arc
+/// that turns as much rises by a tenth of the width.
+const MAX_LEVEL_TURN_OF_WIDTH: f64 = 0.8;
 
 /// Minimum cosine between the end normals of a gentle edge: 15 degrees.
 pub(crate) const MIN_GENTLE_COSINE: f64 = 0.966;
@@ -47,6 +51,34 @@ pub(crate) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
         let leans_at_first = normals[0].dot(along).abs() > normals[1].dot(along).abs();
         let (end, onward) = if leans_at_first { (a, -along) } else { (b, along) };
         beyond(mesh, smooth, edge, (end, onward)).is_none_or(|way| way < least)
+    })
+}
+
+/// Edges along which the normals hardly turn, in faces with a straight side, among the edges that satisfy
+/// `is_asked`. Requires `smooth.straight`.
+///
+/// A face between such an edge and a straight one is a piece of a strip that bends across, and new edges in it
+/// are as straight as its sides.
+pub(crate) fn level(mesh: &Mesh, smooth: &SmoothNormals, is_asked: impl Fn(usize) -> bool + Sync) -> EdgeSet {
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        if smooth.straight.is_empty() || !is_asked(edge) {
+            return false;
+        }
+        let Some(normals) = smooth.across(mesh, edge).map(|ends| ends.map(|v| smooth.normals[v as usize]))
+        else {
+            return false;
+        };
+        let [from, to] = mesh.ends(edge);
+        let turn_by_length = from.distance_squared(to) * normals[0].distance(normals[1]);
+        let ends = mesh.edges.vertices[edge];
+        mesh.edges.faces(edge).each().any(|face| {
+            let is_straight = |end: u32| {
+                let side = mesh.apex(face, ends).and_then(|apex| mesh.edges.between(apex, end));
+                side.is_some_and(|side| smooth.straight.contains(side))
+            };
+            ends.into_iter().any(is_straight)
+                && turn_by_length < MAX_LEVEL_TURN_OF_WIDTH * 2.0 * mesh.area(FaceId(face))
+        })
     })
 }
 

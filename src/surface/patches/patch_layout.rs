@@ -51,8 +51,9 @@ pub(crate) struct Patches {
     pub pieces: Vec<u32>,
     /// Whether the normals of the file, if any, describe the shape of each face.
     pub trusts_file_normals: Vec<bool>,
-    /// Whether `hard` and `rims` are all borders of curved surfaces, so that the normals of the file add none.
-    pub has_all_borders: bool,
+    /// Whether each face was decided by evidence, or empty if none was. There `hard` and `rims` are all borders of
+    /// curved surfaces, so that the normals of the file add none.
+    pub by_evidence: Vec<bool>,
     /// Normals of the mesh that were not in the file.
     pub bevels: BevelNormals,
 }
@@ -63,19 +64,28 @@ impl Patches {
     #[must_use]
     pub(crate) fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let (turns, planes, verdicts) = classify(mesh, all);
-        let turns = &turns;
+        Self::by_statistics(mesh, (&turns, &planes, &verdicts), crease_deg, all)
+    }
+
+    /// Same, with the results of [`classify`].
+    pub(crate) fn by_statistics(
+        mesh: &Mesh,
+        (turns, planes, verdicts): (&DihedralCosines, &PlanarRegions, &ComponentClasses),
+        crease_deg: f64,
+        all: bool,
+    ) -> Self {
         let believed = verdicts.map(|verdict| verdict.trusts_file_normals);
         let makes = verdicts.map(|verdict| verdict.make);
         let ((hard, wrinkles), rims) = crate::parallel::join(
-            || hard_edges(mesh, turns, &verdicts, crease_deg),
-            || rims(mesh, turns, &planes, &makes),
+            || hard_edges(mesh, turns, verdicts, crease_deg),
+            || rims(mesh, turns, planes, &makes),
         );
         let rounded_and_shallow = || {
             let mut rounded = verdicts.map(|verdict| all || verdict.make == SurfaceClass::Round);
             if !all && verdicts.any(SurfaceClass::Machined) {
                 let parts =
                     |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
-                add_curved_patches(mesh, (turns, &planes), &makes, parts, &mut rounded);
+                add_curved_patches(mesh, (turns, planes), &makes, parts, &mut rounded);
             }
             // A figure with faceted normals bends at all edges.
             let is_exact =
@@ -89,12 +99,12 @@ impl Patches {
             if all {
                 return EdgeSet::default();
             }
-            roundings(mesh, (turns, &planes), &verdicts, (&hard, &wrinkles), crease_deg)
+            roundings(mesh, (turns, planes), verdicts, (&hard, &wrinkles), crease_deg)
         });
         let hard = hard.with(mesh, &shallow);
         let origins = verdicts.map(|verdict| verdict.origin);
         let figure = verdicts.map(|verdict| verdict.make == SurfaceClass::Round);
-        let pieces = verdicts.into_pieces();
+        let pieces = verdicts.pieces();
         Self {
             hard,
             sliver_creases: wrinkles,
@@ -105,7 +115,7 @@ impl Patches {
             origins,
             pieces,
             trusts_file_normals: believed,
-            has_all_borders: false,
+            by_evidence: Vec::new(),
             bevels: BevelNormals::default(),
         }
     }
@@ -118,7 +128,7 @@ pub(crate) fn classify_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Me
     let (turns, _, verdicts) = classify(mesh, false);
     let turns = &turns;
     let hard = HardEdges::above_with(mesh, turns, crease_deg);
-    (hard, verdicts.map(|verdict| verdict.origin), verdicts.into_pieces())
+    (hard, verdicts.map(|verdict| verdict.origin), verdicts.pieces())
 }
 
 /// Dihedral angles, planar regions, and the class of each component.

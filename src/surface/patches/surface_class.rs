@@ -93,8 +93,14 @@ impl ComponentClasses {
     }
 
     /// Component of each face, numbered in the order of their first faces; empty if there is at most one.
-    pub(crate) fn into_pieces(self) -> Vec<u32> {
-        if self.of_pieces.len() < 2 { Vec::new() } else { self.pieces }
+    pub(crate) fn pieces(&self) -> Vec<u32> {
+        if self.of_pieces.len() < 2 { Vec::new() } else { self.pieces.clone() }
+    }
+
+    /// How the file shades the components: whether some and whether all are curved by its normals.
+    pub(crate) fn are_shaded(&self) -> (bool, bool) {
+        let is_curved = |class: &ComponentClass| class.shading == FileShading::Curved;
+        (self.of_pieces.iter().any(is_curved), self.of_pieces.iter().all(is_curved))
     }
 }
 
@@ -117,14 +123,12 @@ mod tests {
                 && !two.all(SurfaceClass::Round)
         );
         assert_eq!(two.map(|verdict| verdict.make == SurfaceClass::Round), [true, false, false, true]);
-        assert_eq!(two.into_pieces(), [0, 1, 1, 0]);
+        assert_eq!(two.pieces(), [0, 1, 1, 0]);
         let one = ComponentClasses::new(vec![make(SurfaceClass::Round)], numbered(&[0, 0]));
         assert!(one.all(SurfaceClass::Round));
         assert_eq!(one.map(|verdict| verdict.make), [SurfaceClass::Round; 2]);
-        assert!(one.into_pieces().is_empty());
+        assert!(one.pieces().is_empty());
         let none = ComponentClasses::default();
-        assert!(
-            none.all(SurfaceClass::Round) && !none.any(SurfaceClass::Round) && none.into_pieces().is_empty()
-        );
+        assert!(none.all(SurfaceClass::Round) && !none.any(SurfaceClass::Round) && none.pieces().is_empty());
     }
 }

@@ -72,18 +72,21 @@ fn circle_tangent([a, b, c]: [DVec3; 3]) -> DVec3 {
 pub(crate) struct EvenRuns(pub Vec<EvenEdge>);
 
 impl EvenRuns {
-    /// Finds the even runs of borders, and of lines between surfaces whose direction no file gives.
+    /// Finds the even runs of borders, and of lines between surfaces whose direction no file gives, among the
+    /// faces that are decided `by_evidence`.
     ///
     /// A run counts if it is a border of something curved, and if each face next to it is curved or lies in
     /// the plane of the arc.
-    pub(crate) fn find(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
+    pub(crate) fn find(mesh: &Mesh, smooth: &SmoothNormals, by_evidence: &[bool]) -> Self {
         if smooth.is_empty() {
             return Self::default();
         }
         let lines = EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
-            EdgeFaces::One(_) => true,
+            EdgeFaces::One(face) => by_evidence[face as usize],
             EdgeFaces::Two { faces, .. } => {
-                smooth.separating_edges.contains(edge) && !has_known_direction(mesh, smooth, faces)
+                by_evidence[faces[0] as usize]
+                    && smooth.separating_edges.contains(edge)
+                    && !has_known_direction(mesh, smooth, faces)
             }
             EdgeFaces::Many(_) => false,
         });

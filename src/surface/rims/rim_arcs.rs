@@ -8,8 +8,8 @@ use crate::surface::{EdgeArc, SmoothNormals};
 
 /// Minimum sine of the angle (10 degrees) between two surfaces whose line has a known direction.
 const MIN_CROSS_SINE: f64 = 0.17;
-/// Parameters at which an arc is compared with the sides of a face: near its ends, where it is steepest, and
-/// between.
+/// Parameters of the points of an arc that are compared with the sides of a face: near its ends, where it is
+/// steepest, and between.
 const ROOM_PARAMETERS: [f64; 5] = [1.0 / 64.0, 0.25, 0.5, 0.75, 63.0 / 64.0];
 
 /// Whether the file gives the normals of all curved faces next to a line, one at least. Normals that are
@@ -62,4 +62,34 @@ pub(crate) fn has_room(mesh: &Mesh, edge: usize, arc: &EdgeArc) -> bool {
             (apex - to).cross(at - to).dot(normal) > 0.0 && (from - apex).cross(at - apex).dot(normal) > 0.0
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::Soup;
+
+    #[test]
+    fn arcs_have_room_only_inside_the_faces_at_their_edge() {
+        let angle_deg = 10.0f64;
+        // The edge from (0, 0) to (1, 0), with a face below that is wide, and one above whose apex decides.
+        let has_room_below = |apex: [f64; 2]| {
+            let positions = [[0.0, 0.0], [1.0, 0.0], [0.5, -1.0], apex].map(|[x, y]| DVec3::new(x, y, 0.0));
+            let triangles = vec![[0, 2, 1], [0, 1, 3]];
+            let mesh = Mesh::build(Soup { positions: positions.to_vec(), triangles, ..Soup::default() });
+            let edge = (0..mesh.edges.len()).find(|edge| mesh.edges.faces(*edge).list().len() == 2).unwrap();
+            let (c, s) = (cos(angle_deg.to_radians()), sin(angle_deg.to_radians()));
+            let tangents = [DVec3::new(c, s, 0.0), DVec3::new(c, -s, 0.0)];
+            has_room(&mesh, edge, &EdgeArc::with_tangents(mesh.ends(edge), tangents))
+        };
+        assert!(has_room_below([0.5, 1.0]));
+        // The sides leave the edge at 45 and 4 degrees, and at 45 and 14: the arc at 10.
+        assert!(!has_room_below([0.065, 0.065]));
+        assert!(has_room_below([0.2, 0.2]));
+        // The arc leaves through the far side of a face that leans over.
+        assert!(!has_room_below([3.0, 0.1]));
+    }
 }

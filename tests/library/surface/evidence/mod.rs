@@ -62,7 +62,7 @@ fn scene(text: &str) -> Scene {
 
 fn patches(text: &str) -> (Mesh, Patches) {
     let mut mesh = Mesh::build(scene(text).to_soup());
-    let patches = patches_by_evidence(&mut mesh, 40.0);
+    let patches = patches_by_evidence(&mut mesh, 40.0, false);
     (mesh, patches)
 }
 
@@ -91,7 +91,7 @@ fn averaged_normals_make_no_ball_of_a_cube() {
     let normals = positions.iter().map(|p| p.normalize().as_vec3().to_array()).collect();
     let corner_normals = triangles.clone();
     let mut mesh = Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() });
-    let found = patches_by_evidence(&mut mesh, 40.0);
+    let found = patches_by_evidence(&mut mesh, 40.0, false);
     assert_eq!(found.hard.count(), 12);
     assert!(!found.rounded.contains(&true));
 }
@@ -149,6 +149,29 @@ fn rims_of_coarse_cylinders_are_circles() {
         let rise = SIZE[0] * (1.0 - cos(TAU / 2.0 / f64::from(sides))) * camera.height / 3.0;
         assert!(polygon > 0.5 * rise, "{sides} sides: {polygon} px");
     }
+}
+
+#[test]
+fn evidence_decides_where_the_file_shades() {
+    let camera = orthographic(DVec3::new(6.0, 4.0, 7.0), DVec3::ZERO, 3.0);
+    let svg = |text: &str, surfaces: &str| {
+        let drawing = drawn(text, &camera, &[&format!("lines.surfaces={surfaces}")]);
+        drawing
+            .layers
+            .iter()
+            .flat_map(|layer| &layer.marks)
+            .map(|mark| mark.path.to_svg())
+            .collect::<Vec<_>>()
+    };
+    let (smooth, flat) = (cylinder(12, true), cylinder(12, false));
+    assert_eq!(svg(&smooth, "shaded"), svg(&smooth, "evidence"));
+    assert_ne!(svg(&smooth, "shaded"), svg(&smooth, "statistics"));
+    assert_eq!(svg(&flat, "shaded"), svg(&flat, "statistics"));
+    // A roof without normals, in another component, changes nothing.
+    let roof =
+        "v -9 9 3\nv -8 9 3\nv -8 9 4\nv -9 9 4\nv -8 9.2 5\nv -9 9.2 5\nf -6 -5 -4 -3\nf -3 -4 -2 -1\n";
+    let both = drawn(&(smooth + roof), &camera, &["lines.surfaces=shaded"]);
+    assert!(rim_distance(&both, &camera) < 0.3);
 }
 
 #[test]
