@@ -1,7 +1,8 @@
 //! Creases and curved surfaces by evidence: the normals of the file where they say something, one rule for
 //! creases and the shape of each patch elsewhere. The option `lines.surfaces` selects it.
 //!
-//! 1. Where the normals of the file say something, edges are split or soft by them.
+//! 1. Where the normals of the file say something, those of flats are parted from bevels
+//!    ([`bevel_normals`](crate::surface::normals::bevel_normals)). Edges are split or soft by them.
 //! 2. Creases are split edges, and chains and single edges that stand out from the noise around them.
 //! 3. Patches between creases and other borders are curved if their normals vary, unless they are too coarse.
 //!

@@ -27,6 +27,8 @@ const MIN_COMMON_COSINE: f64 = 0.999_85;
 /// Distances of averaged normals are at most 0.05 degrees in games' models; those of 76 CAD parts are rarely less
 /// than 0.1.
 const MIN_MEAN_COSINE: f64 = 0.999_998_5;
+/// Maximum number of planes of a fan that are told apart. Bounds the search around vertices with many faces.
+const MAX_PLANES_OF_FAN: usize = 64;
 /// Maximum number of coplanar faces across which a face reaches. Bounds the search on large flats.
 const MAX_COPLANAR_FACES: usize = 16;
 
@@ -220,9 +222,12 @@ impl Fans<'_> {
             let cross = a.cross(b);
             let unit = cross.normalize_or_zero();
             let angle = acos(a.normalize_or_zero().dot(b.normalize_or_zero()).clamp(-1.0, 1.0));
-            let is_known = planes.iter().any(|plane| plane.dot(unit) > MIN_MEAN_COSINE);
+            let is_known = planes.len() >= MAX_PLANES_OF_FAN
+                || planes.iter().any(|plane| plane.dot(unit) > MIN_MEAN_COSINE);
             let of_plane = if is_known { DVec3::ZERO } else { unit };
-            planes.push(unit);
+            if !is_known {
+                planes.push(unit);
+            }
             for (mean, weighted) in means.iter_mut().zip([unit, of_plane, unit * angle, cross]) {
                 *mean += weighted;
             }
