@@ -8,8 +8,9 @@ use super::edge_noise::EdgeNoise;
 use crate::mesh::{DihedralCosines, Mesh};
 use crate::parallel::prelude::*;
 
-/// Maximum median turn of the edges next to a calm edge, as a share of its own turn.
+/// Maximum median turn of the edges next to a calm edge, as a share of the turn of the calm edge.
 const MAX_TURN_BESIDE: f64 = 0.2;
+
 /// The edges of `sharp` where the surface next to them hardly turns.
 pub(crate) fn calm_edges(
     mesh: &Mesh,

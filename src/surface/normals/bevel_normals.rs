@@ -13,6 +13,7 @@ use glam::DVec3;
 
 use super::file_normals::file_normals;
 use super::normal_sum::{FaceWeights, NormalSum};
+use super::vertex_split::FanCorner;
 use crate::geometry::lists::disjoint_sets::UnionFind;
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::edges::triangle_sides::{apex, sides};
@@ -27,19 +28,10 @@ const MIN_COMMON_COSINE: f64 = 0.999_85;
 /// Distances of averaged normals are at most 0.05 degrees in games' models; those of 76 CAD parts are rarely less
 /// than 0.1.
 const MIN_MEAN_COSINE: f64 = 0.999_998_5;
-/// Maximum number of planes of a fan that are told apart. Bounds the search around vertices with many faces.
+/// Maximum number of different planes of a fan. Bounds the search around vertices with many faces.
 const MAX_PLANES_OF_FAN: usize = 64;
 /// Maximum number of coplanar faces across which a face reaches. Bounds the search on large flats.
 const MAX_COPLANAR_FACES: usize = 16;
-
-/// Corner of a face at a vertex next to a narrow face.
-#[derive(Debug, Clone, Copy)]
-struct FanCorner {
-    vertex: u32,
-    face: u32,
-    /// Index of the corner in its face.
-    which: u8,
-}
 
 /// Fans of a mesh with narrow faces: the corners of their other faces.
 #[derive(Debug, Clone, Default)]

@@ -9,13 +9,13 @@ use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use crate::mesh::{FaceId, Mesh};
 
-/// Corner of a curved face at a vertex on a separating edge.
-#[derive(Clone, Copy)]
-struct FanCorner {
-    vertex: u32,
-    face: u32,
+/// Corner of a face in a fan around a vertex.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FanCorner {
+    pub vertex: u32,
+    pub face: u32,
     /// Index of the corner in its face.
-    which: u8,
+    pub which: u8,
 }
 
 /// Gives each fan around a vertex on a separating edge its smooth vertex. The first fan keeps the number of
