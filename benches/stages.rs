@@ -49,7 +49,7 @@ fn made(name: &str) -> Made {
     let scene = scene(name);
     let camera = Camera::three_quarter().fit(&scene);
     let style = Style::preset("ink").unwrap_or_default();
-    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera, 0.15);
     let view = View::of(&surface, &camera);
     let lines = FeatureLines::of(&surface, &view, &style);
     Made { scene, camera, style, surface, view, lines }

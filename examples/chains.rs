@@ -13,7 +13,7 @@ fn main() -> Result<(), Error> {
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| teapot.to_owned()))?;
     let style = Style::default();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera, 0.15);
     let view = View::of(&surface, &camera);
     let map = ViewMap::of(&surface, &view, &FeatureLines::of(&surface, &view, &style), &style);
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();

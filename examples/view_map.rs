@@ -17,7 +17,7 @@ fn main() -> Result<(), Error> {
     let mut style = Style::default();
     style.set("lines.hidden", "solid")?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
-    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera);
+    let surface = Surface::of(Mesh::of(&scene), &style).finer_for(&camera, 0.15);
     let view = View::of(&surface, &camera);
     let feature_lines = FeatureLines::of(&surface, &view, &style);
     let map = ViewMap::of(&surface, &view, &feature_lines, &style);

@@ -30,7 +30,18 @@ pub(crate) struct ChainOptions {
 const MAX_SIMPLIFY_MM: f64 = 0.002;
 const MAX_FIT_MM: f64 = 0.008;
 
+/// Minimum tolerance of refined surfaces, px. Bounds the work for styles that fit curves more closely.
+const MIN_REFINEMENT_TOLERANCE_PX: f64 = 0.02;
+
 impl ChainOptions {
+    /// Tolerance of refined surfaces, in user units: the tolerance of fitted curves, since a finer surface
+    /// would not show.
+    #[must_use]
+    pub(crate) fn refinement_tolerance(&self, unit: Unit) -> f64 {
+        let least = Length::px(MIN_REFINEMENT_TOLERANCE_PX).in_unit(unit);
+        self.fit_tolerance.in_unit(unit).max(least)
+    }
+
     /// Options for a page to scale or a DXF file: no point moves by more than 0.02 mm, and corners on one
     /// circle become arcs.
     #[must_use]

@@ -4,12 +4,6 @@
 /// pieces of zero length.
 pub(crate) const ZERO_SET_OF_EDGE: f64 = 1e-6;
 
-/// An edge of a rounded surface is split if its arc deviates from it by more than this (px).
-pub(crate) const MAX_ARC_ERROR_PX: f64 = 0.08;
-
-/// Edges up to this length (px, seen face-on) are never split; lines across them are already smooth.
-pub(crate) const MIN_SPLIT_EDGE_PX: f64 = 2.5;
-
 /// With more levels than this, tones form a gradient whose single steps are not visible.
 pub(crate) const MAX_SEPARATE_LEVELS: usize = 64;
 

@@ -136,17 +136,18 @@ impl Surface {
         }
     }
 
-    /// The surface, subdivided where a coarse rounded part would show corners to the camera.
+    /// The surface, subdivided where a coarse rounded part would show corners to the camera: until lines are
+    /// within `tolerance` (user units of the page) of the rounded surface.
     #[must_use]
-    pub fn finer_for(mut self, camera: &Camera) -> Self {
+    pub fn finer_for(mut self, camera: &Camera, tolerance: f64) -> Self {
         if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return self;
         }
         let frame = Frame::new(camera, self.mesh.origin);
-        if let Some(cuts) = self.cuts_along_rims(&frame) {
+        if let Some(cuts) = self.cuts_along_rims(&frame, tolerance) {
             self = self.cut(cuts).surface;
         }
-        if let Some(cuts) = light::cuts_near_contours(&self.mesh, &self.smooth, &frame) {
+        if let Some(cuts) = light::cuts_near_contours(&self.mesh, &self.smooth, &frame, tolerance) {
             let sides = self.fillet_centre_sides();
             let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
             self = self.refined_with(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface;
@@ -157,28 +158,28 @@ impl Surface {
         self
     }
 
-    /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
-    /// needs it, or if it is subdivided already.
+    /// The surface subdivided as by [`Self::finer_for`]; `None` if nothing needs it, or if it is subdivided
+    /// already.
     ///
     /// Rims come first. Contours end on them.
     #[must_use]
-    pub(crate) fn refined_for(&self, camera: &Camera) -> Option<RefinedSurface> {
+    pub(crate) fn refined_for(&self, camera: &Camera, tolerance: f64) -> Option<RefinedSurface> {
         if self.refined || self.fine_enough_camera.as_ref() == Some(camera) {
             return None;
         }
         let frame = Frame::new(camera, self.mesh.origin);
-        let rimmed = self.cuts_along_rims(&frame).map(|cuts| self.cut(cuts));
+        let rimmed = self.cuts_along_rims(&frame, tolerance).map(|cuts| self.cut(cuts));
         let surface = rimmed.as_ref().map_or(self, |rimmed| &rimmed.surface);
-        let finer =
-            light::cuts_near_contours(&surface.mesh, &surface.smooth, &frame).map(|cuts| surface.cut(cuts));
+        let finer = light::cuts_near_contours(&surface.mesh, &surface.smooth, &frame, tolerance)
+            .map(|cuts| surface.cut(cuts));
         match (rimmed, finer) {
             (Some(rimmed), Some(finer)) => Some(finer.after(&rimmed)),
             (rimmed, finer) => finer.or(rimmed),
         }
     }
 
-    fn cuts_along_rims(&self, frame: &Frame) -> Option<MeshCuts> {
-        light::cuts_along_rims(&self.mesh, &self.smooth, self.even_runs.as_ref()?, frame)
+    fn cuts_along_rims(&self, frame: &Frame, tolerance: f64) -> Option<MeshCuts> {
+        light::cuts_along_rims(&self.mesh, &self.smooth, self.even_runs.as_ref()?, frame, tolerance)
     }
 
     /// The surface with cut faces.
@@ -352,7 +353,7 @@ mod tests {
             height: 1000.0,
             near: None,
         };
-        let finer = surface.finer_for(&camera);
+        let finer = surface.finer_for(&camera, 0.04);
         let mesh = &finer.mesh;
         let place = |v: u32| mesh.positions[v as usize] + mesh.origin;
         let angle = |edge: usize| {

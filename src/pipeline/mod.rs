@@ -102,7 +102,7 @@ pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, 
 /// If the camera is invalid: see [`Camera::validate`].
 pub fn render_on(page: Page, scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, Error> {
     let page = Page { background: style.background, ..page };
-    let renderer = Renderer::for_camera(Cow::Borrowed(scene), style, camera);
+    let renderer = Renderer::for_camera(Cow::Borrowed(scene), style, camera, page.unit);
     renderer.draw(camera, page).map(|(drawing, _)| drawing)
 }
 

@@ -140,11 +140,15 @@ pub(crate) fn draw_model(
     watch.lap_ms();
     // The scene is kept if hotspots or several views need it.
     let prepared = match eyes.as_slice() {
-        [eye] if !request.web.hotspots => Renderer::for_camera(Cow::Owned(scene), &style, &eye.camera),
+        [eye] if !request.web.hotspots => {
+            Renderer::for_camera(Cow::Owned(scene), &style, &eye.camera, eye.paper.page().unit)
+        }
         eyes => {
             let scene = &*of_scene.scene.insert(retained_scene.insert(scene));
             match eyes {
-                [eye] => Renderer::for_camera(Cow::Borrowed(scene), &style, &eye.camera),
+                [eye] => {
+                    Renderer::for_camera(Cow::Borrowed(scene), &style, &eye.camera, eye.paper.page().unit)
+                }
                 _ => Renderer::new(scene, &style),
             }
         }

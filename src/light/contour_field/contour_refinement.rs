@@ -1,6 +1,11 @@
 //! Refinement of coarse rounded surfaces where the contour may pass, so that it is round on the page. The
 //! rest of the model stays unchanged.
 //!
+//! Edges are split until the error of the drawn curve is within its tolerance, the same as that of curve
+//! fitting. Rims become polygons with corners on the rim, so their arcs may rise by the tolerance. Contours are
+//! smoothed too, and a smooth curve passes halfway between the corners and the edges of its polygon. Their arcs
+//! may rise by twice the tolerance.
+//!
 //! Source: Hertzmann and Zorin 2000, section 4.3, for refinement near the contour alone.
 
 use glam::DVec3;
@@ -8,6 +13,7 @@ use glam::DVec3;
 use crate::light::contour_field::culling::edge_on_margin::EdgeOnMargin;
 use crate::light::tolerances;
 use crate::mesh::Mesh;
+use crate::surface::refine::edge_arc::MAX_RISE_OF_LENGTH;
 use crate::surface::refine::mesh_splice::MeshCuts;
 use crate::surface::refine::subdivision;
 use crate::surface::rims::rim_cuts::rim_cuts;
@@ -20,35 +26,44 @@ use crate::view::Frame;
 const MAX_FALL_PER_TURN: f64 = 0.55;
 const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F64_MARGIN_SHARE);
 
+/// Largest rise of an arc at the contour over its edge, in tolerances.
+const CONTOUR_RISE_PER_TOLERANCE: f64 = 2.0;
+
 /// Cuts of a mesh along its rims (lines between surfaces, and `even` runs), made until no edge is farther from
-/// its arc than [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough.
+/// its arc than `tolerance` (user units of the page). `None` where edges are short enough.
 #[must_use]
 pub(crate) fn cuts_along_rims(
     mesh: &Mesh,
     smooth: &SmoothNormals,
     even: &EvenRuns,
     frame: &Frame,
+    tolerance: f64,
 ) -> Option<MeshCuts> {
-    let px = frame.width.max(frame.height) / 1000.0;
     let rise_limit = |at: DVec3| {
         let depth = if frame.perspective { frame.depth(at) } else { 1.0 };
-        if depth > 0.0 { tolerances::MAX_ARC_ERROR_PX * px * depth / frame.scale } else { f64::INFINITY }
+        if depth > 0.0 { tolerance * depth / frame.scale } else { f64::INFINITY }
     };
     rim_cuts(mesh, smooth, even, rise_limit)
 }
 
-/// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
-/// [`tolerances::MAX_ARC_ERROR_PX`]. `None` where edges are short enough.
+/// Cuts of a mesh near the contour of a view, made until the drawn contour is within `tolerance` (user units of
+/// the page) of the surface. `None` where edges are short enough.
 #[must_use]
-pub(crate) fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Option<MeshCuts> {
-    let px = frame.width.max(frame.height) / 1000.0;
-    // Length on the page of a unit length at the end nearer to the eye, seen square on.
+pub(crate) fn cuts_near_contours(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    frame: &Frame,
+    tolerance: f64,
+) -> Option<MeshCuts> {
+    let max_rise = CONTOUR_RISE_PER_TOLERANCE * tolerance;
+    // Length on the page of a unit length at the end nearer to the eye, seen square on, in limits of the rise.
     let page = |[a, b]: [DVec3; 2]| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
-        if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
+        if depth > 0.0 { frame.scale / (max_rise * depth) } else { 0.0 }
     };
-    // Squares instead of quotients, because this runs for every edge of the model.
-    let short = (tolerances::MIN_SPLIT_EDGE_PX * px / frame.scale).powi(2);
+    // The arcs of shorter edges are within the limit. Squares instead of quotients, because this runs for every
+    // edge of the model.
+    let short = (max_rise / (MAX_RISE_OF_LENGTH * frame.scale)).powi(2);
     let is_long = |a: DVec3, b: DVec3| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         depth > 0.0 && a.distance_squared(b) > short * depth * depth
@@ -62,7 +77,7 @@ pub(crate) fn cuts_near_contours(mesh: &Mesh, smooth: &SmoothNormals, frame: &Fr
         if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > MAX_FALL_PER_TURN * turn {
             return 0.0;
         }
-        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerances::MAX_ARC_ERROR_PX
+        EdgeArc::new(ends, normals).height().length() * page(ends)
     };
     let turned = EdgeOnMargin::of(mesh, smooth, frame, MAX_FALL_PER_TURN_ROUNDED);
     let may = |ends: [u32; 2], squared: f64| !turned.cannot_vanish(ends, squared);

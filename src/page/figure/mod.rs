@@ -46,7 +46,8 @@ pub(crate) fn draw(
     style: &Style,
     page: Page,
 ) -> Result<(Drawing, Vec<String>), Error> {
-    let (drawing, report) = Renderer::for_camera(Cow::Borrowed(scene), style, camera).draw(camera, page)?;
+    let (drawing, report) =
+        Renderer::for_camera(Cow::Borrowed(scene), style, camera, page.unit).draw(camera, page)?;
     let mut warnings = scene.warnings.lines();
     warnings.extend(report.warnings.into_iter().filter(|warning| !scene.warnings.lines().contains(warning)));
     Ok((drawing, warnings))

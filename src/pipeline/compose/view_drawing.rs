@@ -70,7 +70,7 @@ impl Renderer<'_> {
     pub(crate) fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
         run_on_pool(|| {
-            let refined = self.surface.refined_for(camera);
+            let refined = self.surface.refined_for(camera, self.style.chain.refinement_tolerance(unit));
             let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
             let view = View::new(&surface.mesh, camera);
             let maps = image_line_pass::maps(surface, &view, self.style, unit);

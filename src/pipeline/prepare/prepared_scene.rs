@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::prepare_mesh::PreparedMesh;
+use crate::drawing::Unit;
 use crate::error::{Error, ErrorKind};
 use crate::lines::{LineOptions, Surface};
 use crate::mesh::components::solid_parts::solid_parts;
@@ -51,17 +52,17 @@ impl<'a> Renderer<'a> {
         run_on_pool(|| Self::from_mesh(PreparedMesh::of(scene, style), style, None).0)
     }
 
-    /// Prepares the scene for one camera. The surface is refined for it at once and permanently, which takes
+    /// Prepares the scene for one camera and a page with the given unit. The surface is refined for it at once and permanently, which takes
     /// less memory than a refined copy next to the model. The geometry of an owned scene is freed once the mesh
     /// is built.
     #[must_use]
-    pub(crate) fn for_camera(scene: Cow<'a, Scene>, style: &'a Style, camera: &Camera) -> Self {
+    pub(crate) fn for_camera(scene: Cow<'a, Scene>, style: &'a Style, camera: &Camera, unit: Unit) -> Self {
         run_on_pool(|| {
             let mesh = match scene {
                 Cow::Borrowed(scene) => PreparedMesh::of(scene, style),
                 Cow::Owned(scene) => PreparedMesh::of_all(scene, style),
             };
-            Self::from_mesh(mesh, style, Some(camera)).0
+            Self::from_mesh(mesh, style, Some((camera, unit))).0
         })
     }
 
@@ -99,7 +100,7 @@ impl<'a> Renderer<'a> {
     pub(crate) fn from_mesh(
         welded: PreparedMesh<'a>,
         style: &'a Style,
-        only: Option<&Camera>,
+        only: Option<(&Camera, Unit)>,
     ) -> (Self, Option<Patches>) {
         let PreparedMesh { scene, warnings, paints, mesh } = welded;
         let sought = surface_requirements::required_lines(style);
@@ -107,9 +108,9 @@ impl<'a> Renderer<'a> {
         let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
         let painted = paints.as_ref().filter(|_| surface_requirements::uses_paints(style));
         let painted = painted.map(|paints| (paints, solid_parts(&surface.mesh)));
-        if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
+        if let Some((camera, unit)) = only.filter(|(camera, _)| camera.validate().is_ok()) {
             patches = None;
-            surface = surface.finer_for(camera);
+            surface = surface.finer_for(camera, style.chain.refinement_tolerance(unit));
         }
         let paintable = painted.map(|(paints, solid)| ToneInputs::new(&surface, paints, solid));
         let prepared = Self {

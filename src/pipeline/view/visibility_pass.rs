@@ -61,7 +61,7 @@ impl Renderer<'_> {
         let mut watch = Stopwatch::start();
         [report.counts.vertices, report.counts.edges] = self.counts;
 
-        let refined = self.surface.refined_for(camera);
+        let refined = self.surface.refined_for(camera, style.chain.refinement_tolerance(unit));
         let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
         // Refined triangles belong to this view only.
         let paint = || {

@@ -16,6 +16,10 @@ use crate::surface::SmoothNormals;
 /// fit any surface through the ends.
 pub(crate) const MAX_TANGENT_SINE: f64 = 0.55;
 
+/// Largest height of an arc, as a fraction of its edge: the height of a symmetric arc with
+/// [`MAX_TANGENT_SINE`], rounded up.
+pub(crate) const MAX_RISE_OF_LENGTH: f64 = 0.15;
+
 /// Cubic Bézier curve over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EdgeArc {
@@ -140,6 +144,17 @@ mod tests {
                 let off = (arc.at(f64::from(k) / 10.0).length() - 1.0).abs();
                 assert!(off < 4e-3 * turn.powi(6), "{turn}: {off}");
             }
+        }
+    }
+
+    #[test]
+    fn the_steepest_edge_arc_has_the_largest_height() {
+        for slope in 0..=20 {
+            let slope = f64::from(slope) / 10.0;
+            let normals = [-slope, slope].map(|x| DVec3::new(x, 1.0, 0.0).normalize());
+            let height = EdgeArc::new([DVec3::ZERO, DVec3::X], normals).height().length();
+            assert!(height < MAX_RISE_OF_LENGTH, "{slope}: {height}");
+            assert!(slope < 1.0 || height > MAX_RISE_OF_LENGTH * 0.999, "{slope}: {height}");
         }
     }
 

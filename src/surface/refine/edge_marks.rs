@@ -14,10 +14,6 @@ const MAX_ALWAYS_REFINED_FACES: usize = 20_000;
 /// rebuilding the part would cost more than they show.
 const DENSE_EDGES_PER_MARK: usize = 500;
 
-/// Minimum deviation, in multiples of the wanted one, for which the wall thickness is checked. Less is not
-/// visible.
-const MIN_SWELLING_RATIO: f64 = 6.0;
-
 /// Number of edges per task.
 const EDGES_PER_TASK: usize = 1 << 12;
 
@@ -37,8 +33,6 @@ struct MarkedEdge {
     edge: usize,
     /// Its smooth vertices.
     ends: [u32; 2],
-    /// Result of `want`, above 1.
-    wanted: f64,
 }
 
 /// Marks the edges for which `want` returns more than 1, with the conditions of
@@ -61,14 +55,13 @@ pub(crate) fn marks(
         let [a, b] = ends;
         let at = |v: u32| mesh.positions[smooth.vertices[v as usize] as usize];
         let normal = |v: u32| smooth.normals[v as usize];
-        let wanted = want([at(a), at(b)], [normal(a), normal(b)]);
-        (wanted > 1.0).then_some(MarkedEdge { edge, ends, wanted })
+        let is_far = want([at(a), at(b)], [normal(a), normal(b)]) > 1.0;
+        is_far.then_some(MarkedEdge { edge, ends })
     };
     let edges =
         (0..mesh.edges.len()).into_par_iter().with_min_len(EDGES_PER_TASK).with_max_len(EDGES_PER_TASK);
     let marked = without_dense_parts(mesh, smooth, edges.filter_map(mark).collect());
-    let swollen: Vec<(usize, [u32; 2])> =
-        marked.iter().filter(|m| m.wanted > MIN_SWELLING_RATIO).map(|m| (m.edge, m.ends)).collect();
+    let swollen: Vec<(usize, [u32; 2])> = marked.iter().map(|m| (m.edge, m.ends)).collect();
     let thin = wall_thickness::thin(mesh, smooth, &swollen);
     let is_cut = |marked: &&MarkedEdge| thin.binary_search(&marked.edge).is_err();
     let (cut, edges) = marked.iter().filter(is_cut).map(|marked| (marked.ends, marked.edge as u32)).unzip();

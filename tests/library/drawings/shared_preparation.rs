@@ -86,7 +86,10 @@ fn consumed_scenes_give_the_same_drawing_as_kept_ones() {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
         let (scene, style) = (model(name), Style::load_with(style, &sets).expect("a style"));
         let camera = view(&scene, 40.0);
-        let kept = draw(&Renderer::for_camera(Cow::Borrowed(&scene), &style, &camera), &camera);
-        assert!(draw(&Renderer::for_camera(Cow::Owned(scene), &style, &camera), &camera) == kept, "{name}");
+        let kept = draw(&Renderer::for_camera(Cow::Borrowed(&scene), &style, &camera, Unit::Px), &camera);
+        assert!(
+            draw(&Renderer::for_camera(Cow::Owned(scene), &style, &camera, Unit::Px), &camera) == kept,
+            "{name}"
+        );
     }
 }

@@ -11,6 +11,8 @@ use ligne::pipeline::{Renderer, Stage};
 use ligne::view::View;
 use ligne::{Camera, Drawing, Scene, Style, SvgOptions};
 
+use crate::library::support::pipeline::REFINEMENT_TOLERANCE_PX;
+
 const MODELS: [&str; 7] =
     ["bear.ply", "bracket.stl", "castle.obj", "gear.obj", "knot.ply", "pump.glb", "teapot.obj"];
 
@@ -82,7 +84,8 @@ fn field_stage_draws_facing_bands_and_the_zero_set() {
 fn surfaces_are_cut_exactly_at_traced_contours() {
     let (scene, camera) = open_with_camera("bear.ply");
     let options = &Style::default().lines;
-    let surface = lines::Surface::new(Mesh::build(scene.to_soup()), options).finer_for(&camera);
+    let surface = lines::Surface::new(Mesh::build(scene.to_soup()), options)
+        .finer_for(&camera, REFINEMENT_TOLERANCE_PX);
     let view = View::new(&surface.mesh, &camera);
     let found = lines::extract(&surface, &view, options);
     let facing = lines::facing(&surface, &view);

@@ -17,13 +17,14 @@ use ligne::view::raster::{NO_FRONT, NormalDepthMaps};
 
 use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path, sample_segments};
 use crate::library::support::measures::segment_sets::total_length;
-use crate::library::support::pipeline::{self, orthographic, perspective};
+use crate::library::support::pipeline::{self, REFINEMENT_TOLERANCE_PX, orthographic, perspective};
 use crate::library::support::readers::shared_folder;
 use crate::library::support::scenes::random_dice::Dice;
 use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
 fn maps(scene: &Scene, camera: &Camera, per_unit: f64) -> NormalDepthMaps {
-    let surface = Surface::new(Mesh::build(scene.to_soup()), &LineOptions::default()).finer_for(camera);
+    let surface = Surface::new(Mesh::build(scene.to_soup()), &LineOptions::default())
+        .finer_for(camera, REFINEMENT_TOLERANCE_PX);
     let normals = ShadingNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
     NormalDepthMaps::new(&surface.mesh, &View::new(&surface.mesh, camera), per_unit, |face| normals.of(face))
 }

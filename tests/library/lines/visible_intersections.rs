@@ -1,5 +1,6 @@
 //! The intersection search that is limited to visible faces draws the same lines as the full search.
 
+use crate::library::support::pipeline::REFINEMENT_TOLERANCE_PX;
 use crate::library::support::readers::shared_folder;
 use crate::library::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
@@ -283,7 +284,9 @@ fn coarse_search_results_give_the_curves_of_refined_surfaces() {
     let mut found = [0, 0];
     for (azimuth, elevation) in VIEW_ANGLES_DEG {
         let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
-        let finer = surface.refined_for(&camera.fit_points(&all.positions, 0.05)).expect("it is coarse");
+        let finer = surface
+            .refined_for(&camera.fit_points(&all.positions, 0.05), REFINEMENT_TOLERANCE_PX)
+            .expect("it is coarse");
         let (kept, faces) = (finer.kept_count, finer.surface.mesh.triangles.len());
         assert!(kept > 0 && faces > kept);
         let curves = all_curves(&finer.surface.mesh);

@@ -18,6 +18,9 @@ pub(crate) struct Stages {
     pub map: ViewMap,
 }
 
+/// Tolerance of refined surfaces: the default of `chain.fit_tolerance`, px.
+pub(crate) const REFINEMENT_TOLERANCE_PX: f64 = 0.15;
+
 /// Options for the exact drawing of a polyhedron: contours along mesh edges, and unmerged creases.
 pub(crate) fn exact_options() -> LineOptions {
     LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
@@ -30,7 +33,8 @@ pub(crate) fn exact_options_with_hidden() -> LineOptions {
 
 /// Runs the pipeline on a scene up to the view map.
 pub(crate) fn run_stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
-    let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
+    let surface =
+        Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera, REFINEMENT_TOLERANCE_PX);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
     let map = visibility::build(&surface.mesh, &view, &lines, options);

@@ -1,7 +1,9 @@
 //! The contour search in dual space finds exactly the lines of testing every edge, and tests few edges.
 
 use crate::library::support::long_run::{is_long, select_for_run};
-use crate::library::support::pipeline::{exact_options, orthographic, perspective, scene};
+use crate::library::support::pipeline::{
+    REFINEMENT_TOLERANCE_PX, exact_options, orthographic, perspective, scene,
+};
 use crate::library::support::readers::shared_folder;
 use crate::library::support::scenes::random_dice::Dice;
 use crate::library::support::scenes::random_scenes::{
@@ -258,7 +260,7 @@ fn dual_search_finds_the_same_lines_in_models() {
                 for camera in [camera.fit(&scene), parallel] {
                     check(&surface, &search, &camera, &options);
                     // A refined mesh does not fit the search, so every edge is tested.
-                    let finer = surface.clone().finer_for(&camera);
+                    let finer = surface.clone().finer_for(&camera, REFINEMENT_TOLERANCE_PX);
                     if finer.mesh.edges.len() != surface.mesh.edges.len() {
                         assert!(!search.fits(&finer.mesh));
                     }

@@ -11,6 +11,7 @@ use ligne::visibility::{self, ViewMap, ViewVertexKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::library::support::measures::line_picture::{SegmentGrid, nearest_parameter};
+use crate::library::support::pipeline::REFINEMENT_TOLERANCE_PX;
 
 /// Maximum distance of a reason from the end of the contour, px.
 const MAX_REASON_DISTANCE_PX: f64 = 0.75;
@@ -151,7 +152,7 @@ pub(crate) fn cube_cameras(scene: &Scene) -> Vec<Camera> {
 
 /// The view map of a surface, refined for the camera.
 pub(crate) fn build_view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
-    let surface = surface.clone().finer_for(camera);
+    let surface = surface.clone().finer_for(camera, REFINEMENT_TOLERANCE_PX);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
     visibility::build(&surface.mesh, &view, &lines, options)
