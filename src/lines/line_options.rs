@@ -38,9 +38,10 @@ pub(crate) enum Contours {
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Surfaces {
     /// By statistics of each connected component.
-    #[default]
     Statistics,
-    /// By evidence in connected components that the file shades smoothly, by statistics elsewhere.
+    /// By evidence in constructed components that the file shades smoothly; by statistics in figures and
+    /// elsewhere.
+    #[default]
     Shaded,
     /// By the normals of the file, edge by edge and patch by patch; without normals by the turns around an edge
     /// and the shape of a patch.
@@ -85,7 +86,7 @@ pub(crate) struct LineOptions {
     pub contours: Contours,
     /// Source of the normals for light and rounded surfaces. Default: auto.
     pub normals: Normals,
-    /// How creases and curved surfaces are found. Default: statistics.
+    /// How creases and curved surfaces are found. Default: shaded.
     pub surfaces: Surfaces,
     /// Draw rims of curved surfaces as curves, where surfaces are found by evidence. Default: auto.
     pub round_rims: RoundRims,
@@ -132,7 +133,7 @@ impl Default for LineOptions {
             ],
             contours: Contours::Auto,
             normals: Normals::Auto,
-            surfaces: Surfaces::Statistics,
+            surfaces: Surfaces::Shaded,
             round_rims: RoundRims::Auto,
             crease_deg: 40.0,
             artist_tolerance: 0.05,

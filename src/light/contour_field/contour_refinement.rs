@@ -1,10 +1,8 @@
 //! Refinement of coarse rounded surfaces where the contour may pass, so that it is round on the page. The
 //! rest of the model stays unchanged.
 //!
-//! Edges are split until the error of the drawn curve is within its tolerance, the same as that of curve
-//! fitting. Rims become polygons with corners on the rim, so their arcs may rise by the tolerance. Contours are
-//! smoothed too, and a smooth curve passes halfway between the corners and the edges of its polygon. Their arcs
-//! may rise by twice the tolerance.
+//! Edges are split until their arcs rise by no more than the tolerance of the drawn curve. Coarser pieces would
+//! show: contours near cusps change their course and get notches.
 //!
 //! Source: Hertzmann and Zorin 2000, section 4.3, for refinement near the contour alone.
 
@@ -26,9 +24,6 @@ use crate::view::Frame;
 const MAX_FALL_PER_TURN: f64 = 0.55;
 const MAX_FALL_PER_TURN_ROUNDED: f64 = MAX_FALL_PER_TURN * (1.0 + tolerances::F64_MARGIN_SHARE);
 
-/// Largest rise of an arc at the contour over its edge, in tolerances.
-const CONTOUR_RISE_PER_TOLERANCE: f64 = 2.0;
-
 /// Cuts of a mesh along its rims (lines between surfaces, and `even` runs), made until no edge is farther from
 /// its arc than `tolerance` (user units of the page). `None` where edges are short enough.
 #[must_use]
@@ -46,8 +41,8 @@ pub(crate) fn cuts_along_rims(
     rim_cuts(mesh, smooth, even, rise_limit)
 }
 
-/// Cuts of a mesh near the contour of a view, made until the drawn contour is within `tolerance` (user units of
-/// the page) of the surface. `None` where edges are short enough.
+/// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than `tolerance` (user
+/// units of the page). `None` where edges are short enough.
 #[must_use]
 pub(crate) fn cuts_near_contours(
     mesh: &Mesh,
@@ -55,15 +50,14 @@ pub(crate) fn cuts_near_contours(
     frame: &Frame,
     tolerance: f64,
 ) -> Option<MeshCuts> {
-    let max_rise = CONTOUR_RISE_PER_TOLERANCE * tolerance;
-    // Length on the page of a unit length at the end nearer to the eye, seen square on, in limits of the rise.
+    // Length on the page of a unit length at the end nearer to the eye, seen square on, in tolerances.
     let page = |[a, b]: [DVec3; 2]| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
-        if depth > 0.0 { frame.scale / (max_rise * depth) } else { 0.0 }
+        if depth > 0.0 { frame.scale / (tolerance * depth) } else { 0.0 }
     };
-    // The arcs of shorter edges are within the limit. Squares instead of quotients, because this runs for every
+    // The arcs of shorter edges are within the tolerance. Squares instead of quotients, because this runs for every
     // edge of the model.
-    let short = (max_rise / (MAX_RISE_OF_LENGTH * frame.scale)).powi(2);
+    let short = (tolerance / (MAX_RISE_OF_LENGTH * frame.scale)).powi(2);
     let is_long = |a: DVec3, b: DVec3| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         depth > 0.0 && a.distance_squared(b) > short * depth * depth

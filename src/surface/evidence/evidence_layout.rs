@@ -3,7 +3,8 @@
 //!
 //! 1. Where the normals of the file say something, edges are split, soft or neither.
 //! 2. Split edges are creases. Elsewhere chains and single edges above the crease angle are, if they stand out
-//!    from the noise around them; a soft edge counts half. Shallow creases of constructed parts are added.
+//!    from the noise around them; a soft edge counts half, except next to a bevel. Shallow creases of
+//!    constructed parts are added.
 //! 3. Surfaces between creases and other borders are curved if their normals vary, and fine enough.
 
 use super::curved_faces::CurvedFaces;
@@ -15,15 +16,16 @@ use crate::surface::patches::patch_layout::{
     MAX_RIM_COSINE, MAX_STRIP_COSINE, classify, fillet_centres, width,
 };
 use crate::surface::patches::planar_regions::PlanarRegions;
-use crate::surface::patches::surface_class::{ComponentClasses, FileShading, MeshSource};
+use crate::surface::patches::surface_class::{ComponentClass, ComponentClasses, FileShading, MeshSource};
 use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 use crate::surface::{HardEdges, Patches};
 
-/// Share of its turn that a soft edge counts for.
+/// Share of its turn that a soft edge counts for, except next to a bevel.
 const SOFT_TURN_SHARE: f32 = 0.5;
 
 /// Classifies the surfaces of a mesh whose creases turn by more than `crease_deg` degrees, by evidence. With
-/// `only_shaded`, components that the file does not shade smoothly are classified by their statistics.
+/// `only_shaded`, figures and components that the file does not shade smoothly are classified by their
+/// statistics.
 #[must_use]
 pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64, only_shaded: bool) -> Patches {
     let (turns, planes, classes) = classify(mesh, false);
@@ -37,7 +39,7 @@ pub(crate) fn patches_by_evidence(mesh: &mut Mesh, crease_deg: f64, only_shaded:
         return evidence;
     }
     let statistics = Patches::by_statistics(mesh, of_mesh, crease_deg, false);
-    let is_shaded = classes.map(|class| class.shading == FileShading::Curved);
+    let is_shaded = classes.map(ComponentClass::is_shaded_part);
     combined(mesh, evidence, &statistics, is_shaded)
 }
 
@@ -75,10 +77,12 @@ fn by_evidence(
     crease_deg: f64,
 ) -> Patches {
     let shading = |face: u32| classes.class_of_face(face).shading;
-    let bevels = BevelNormals::part(mesh, &planes.flat, |face| shading(face) == FileShading::Curved);
+    let is_shaded = |face: u32| shading(face) == FileShading::Curved;
+    let (bevels, bevel_edges) = BevelNormals::part(mesh, (turns, &planes.flat), crease_deg, is_shaded);
     let mesh = &*mesh;
-    let evidence = NormalEvidence::new(mesh, turns, |face| shading(face) == FileShading::Curved);
-    let weight = |edge: usize| if evidence.soft.contains(edge) { SOFT_TURN_SHARE } else { 1.0 };
+    let evidence = NormalEvidence::new(mesh, turns, is_shaded);
+    let is_soft = |edge: usize| evidence.soft.contains(edge) && !bevel_edges.contains(edge);
+    let weight = |edge: usize| if is_soft(edge) { SOFT_TURN_SHARE } else { 1.0 };
     let (found, rims) = crate::parallel::join(
         || HardEdges::find_weighted(mesh, turns, crease_deg, weight),
         || rims(mesh, turns, planes, (&evidence, classes)),

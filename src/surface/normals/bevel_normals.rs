@@ -3,11 +3,14 @@
 //! Modelling programs average the normals around a vertex, so that a flat next to a narrow bevel leans toward
 //! it and would bulge over its whole width. The flat is the surface there, and the bevel its rounded edge:
 //!
-//! 1. At an edge that the file shades smoothly, a face is narrow if the other reaches six times as far. It is
-//!    none that runs away from the edge, farther than six times its length: two bevels that meet at a corner
-//!    do. The faces in its plane are narrow too.
+//! 1. At an edge that the file shades smoothly, a face is narrow if the other reaches six times as far, or three
+//!    times at an edge above the crease angle. It is none that runs away from the edge, farther than that times
+//!    its length: two bevels that meet at a corner do. The faces in its plane are narrow too.
 //! 2. Around a vertex, the faces with a common normal form a fan.
 //! 3. A fan with narrow faces has the normal of its other faces, if its own is a mean of all of them.
+//!
+//! The edges above the crease angle are those of chamfers. They are drawn, although the file shades them
+//! smoothly.
 
 use glam::DVec3;
 
@@ -15,13 +18,16 @@ use super::file_normals::file_normals;
 use super::normal_sum::{FaceWeights, NormalSum};
 use super::vertex_split::FanCorner;
 use crate::geometry::lists::disjoint_sets::UnionFind;
-use crate::geometry::numbers::portable_math::acos;
+use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::edges::triangle_sides::{apex, sides};
-use crate::mesh::{EdgeFaces, EdgeSet, FaceId, Mesh, VertexEdges};
+use crate::mesh::{DihedralCosines, EdgeFaces, EdgeSet, FaceId, Mesh, VertexEdges};
 use crate::parallel::prelude::*;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 
+/// Minimum ratio of the widths of a face and a bevel, at an edge above the crease angle. Neighbouring facets of
+/// curved surfaces differ less.
+const MIN_BEVEL_WIDTH_RATIO: f64 = 3.0;
 /// Minimum cosine (1 degree) between the normals of two corners that have a common one.
 const MIN_COMMON_COSINE: f64 = 0.999_85;
 /// Minimum cosine (0.1 degrees) between a mean and the normal that it is. Covers normals in single precision.
@@ -41,8 +47,20 @@ pub(crate) struct BevelNormals {
 
 impl BevelNormals {
     /// Finds the fans with narrow faces among the faces that satisfy `is_shaded`, and gives them their normals.
-    pub(crate) fn part(mesh: &mut Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> Self {
-        let found = fans(mesh, flat, is_shaded);
+    /// Also returns the edges at narrow faces that turn by more than `crease_deg` degrees. `around` holds the
+    /// turns and the flat edges of the mesh.
+    pub(crate) fn part(
+        mesh: &mut Mesh,
+        around: (&DihedralCosines, &EdgeSet),
+        crease_deg: f64,
+        is_shaded: impl Fn(u32) -> bool + Sync,
+    ) -> (Self, EdgeSet) {
+        if mesh.corner_normals.is_empty() {
+            return Default::default();
+        }
+        let narrow = narrow_faces(mesh, around, crease_deg, &is_shaded);
+        let found = fans(mesh, around.1, &narrow, is_shaded);
+        let sharp: Vec<usize> = narrow.iter().filter(|n| n.is_sharp).map(|n| n.edge as usize).collect();
         let mut fans = Vec::with_capacity(found.len());
         for PartedFan { narrow, others } in found {
             let id = (mesh.normals.len() + fans.len()) as u32;
@@ -53,7 +71,7 @@ impl BevelNormals {
         }
         let parted = Self { fans };
         parted.add_to(mesh);
-        parted
+        (parted, EdgeSet::default().with(&sharp, mesh.edges.len()))
     }
 
     /// Appends the normals of the fans to those of a mesh, which is the one they were found in, or a pose of it.
@@ -81,12 +99,23 @@ struct PartedFan {
     others: Vec<FanCorner>,
 }
 
-/// The fans whose normals change.
-fn fans(mesh: &Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> Vec<PartedFan> {
-    if mesh.corner_normals.is_empty() {
-        return Vec::new();
-    }
+/// Face of a bevel, at its edge with a wider face.
+struct NarrowFace {
+    edge: u32,
+    face: u32,
+    /// Whether the edge turns by more than the crease angle.
+    is_sharp: bool,
+}
+
+/// The narrow faces at smoothly shaded edges, ascending by edge.
+fn narrow_faces(
+    mesh: &Mesh,
+    (turns, flat): (&DihedralCosines, &EdgeSet),
+    crease_deg: f64,
+    is_shaded: &(impl Fn(u32) -> bool + Sync),
+) -> Vec<NarrowFace> {
     let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
+    let crease_cosine = cos(crease_deg.to_radians()) as f32;
     let narrow_at = |edge: usize| {
         let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(edge) else { return None };
         if flat.contains(edge) || !faces.iter().all(|face| is_shaded(*face)) {
@@ -94,17 +123,29 @@ fn fans(mesh: &Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> 
         }
         let [a, b] = faces.map(|face| reach(mesh, flat, &edges, edge, face));
         let [from, to] = mesh.ends(edge);
-        let is_narrow = a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)
-            && a.min(b) < MIN_STRIP_WIDTH_RATIO * from.distance(to);
-        is_narrow.then(|| faces[usize::from(b < a)])
+        let is_sharp = turns.of_two(edge) < crease_cosine;
+        let least = if is_sharp { MIN_BEVEL_WIDTH_RATIO } else { MIN_STRIP_WIDTH_RATIO };
+        let is_narrow = a.max(b) > least * a.min(b) && a.min(b) < least * from.distance(to);
+        let face = faces[usize::from(b < a)];
+        is_narrow.then_some(NarrowFace { edge: edge as u32, face, is_sharp })
     };
     let all = (0..mesh.edges.len()).into_par_iter().with_min_len(MIN_TASK_ITEMS);
-    let narrow: Vec<(u32, u32)> = all.filter_map(|edge| Some((edge as u32, narrow_at(edge)?))).collect();
+    all.filter_map(narrow_at).collect()
+}
+
+/// The fans whose normals change.
+fn fans(
+    mesh: &Mesh,
+    flat: &EdgeSet,
+    narrow: &[NarrowFace],
+    is_shaded: impl Fn(u32) -> bool + Sync,
+) -> Vec<PartedFan> {
     if narrow.is_empty() {
         return Vec::new();
     }
+    let edges = VertexEdges::of(&mesh.edges, mesh.positions.len());
     let mut is_asked = vec![false; mesh.positions.len()];
-    for (edge, _) in &narrow {
+    for NarrowFace { edge, .. } in narrow {
         mesh.edges.vertices[*edge as usize].iter().for_each(|v| is_asked[*v as usize] = true);
     }
     let mut corners: Vec<FanCorner> = Vec::new();
@@ -115,7 +156,7 @@ fn fans(mesh: &Mesh, flat: &EdgeSet, is_shaded: impl Fn(u32) -> bool + Sync) -> 
     }
     corners.par_sort_unstable_by_key(|corner| (corner.vertex, corner.face));
     let around: Vec<&[FanCorner]> = corners.chunk_by(|a, b| a.vertex == b.vertex).collect();
-    let work = Fans { mesh, flat, edges: &edges, narrow: &narrow };
+    let work = Fans { mesh, flat, edges: &edges, narrow };
     around.into_par_iter().flat_map_iter(|around| work.parted(around)).collect()
 }
 
@@ -148,8 +189,7 @@ struct Fans<'a> {
     mesh: &'a Mesh,
     flat: &'a EdgeSet,
     edges: &'a VertexEdges<'a>,
-    /// Edge and its narrow face, ascending.
-    narrow: &'a [(u32, u32)],
+    narrow: &'a [NarrowFace],
 }
 
 impl Fans<'_> {
@@ -174,8 +214,8 @@ impl Fans<'_> {
                 if flat.contains(edge) {
                     planes.join(k as u32, l as u32);
                 }
-                let at = narrow.binary_search_by_key(&(edge as u32), |(edge, _)| *edge);
-                if at.is_ok_and(|at| narrow[at].1 == corner.face) {
+                let at = narrow.binary_search_by_key(&(edge as u32), |narrow| narrow.edge);
+                if at.is_ok_and(|at| narrow[at].face == corner.face) {
                     narrow_corners.push(k);
                 }
             }
@@ -231,7 +271,7 @@ impl Fans<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{DihedralCosines, Soup};
+    use crate::mesh::Soup;
     use crate::surface::patches::planar_regions::PlanarRegions;
 
     /// A square plate with a bevel of the given width around it, and the normal of each vertex by its weights
@@ -266,9 +306,15 @@ mod tests {
         })
     }
 
-    fn parted(mut mesh: Mesh) -> (BevelNormals, Mesh) {
-        let flat = PlanarRegions::new(&mesh, &DihedralCosines::of(&mesh)).flat;
-        let bevels = BevelNormals::part(&mut mesh, &flat, |_| true);
+    fn parted_with_chamfers(mut mesh: Mesh, crease_deg: f64) -> (BevelNormals, Mesh, EdgeSet) {
+        let turns = DihedralCosines::of(&mesh);
+        let flat = PlanarRegions::new(&mesh, &turns).flat;
+        let (bevels, chamfers) = BevelNormals::part(&mut mesh, (&turns, &flat), crease_deg, |_| true);
+        (bevels, mesh, chamfers)
+    }
+
+    fn parted(mesh: Mesh) -> (BevelNormals, Mesh) {
+        let (bevels, mesh, _) = parted_with_chamfers(mesh, 40.0);
         (bevels, mesh)
     }
 
@@ -289,6 +335,18 @@ mod tests {
             // Bevels as wide as the plate are no bevels.
             let wide = plate(2.0, weight);
             assert_eq!(tilt(&parted(wide.clone()).1), tilt(&wide));
+        }
+    }
+
+    #[test]
+    fn edges_of_chamfers_above_the_crease_angle_are_found() {
+        // The plate is 4 wide, and the chamfer √2 times its leg.
+        for (bevel, crease_deg, count, leans) in
+            [(0.4, 40.0, 4, false), (0.9, 40.0, 4, false), (0.9, 50.0, 0, true), (1.0, 40.0, 0, true)]
+        {
+            let (_, mesh, chamfers) = parted_with_chamfers(plate(bevel, |_| 1.0), crease_deg);
+            assert_eq!(chamfers.iter().count(), count, "{bevel} {crease_deg}");
+            assert_eq!(tilt(&mesh) > 0.1, leans, "{bevel} {crease_deg}");
         }
     }
 

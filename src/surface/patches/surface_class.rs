@@ -52,6 +52,13 @@ pub(crate) struct ComponentClass {
     pub shading: FileShading,
 }
 
+impl ComponentClass {
+    /// Whether the component is constructed, and its normals give it curved faces.
+    pub(crate) fn is_shaded_part(&self) -> bool {
+        self.shading == FileShading::Curved && self.origin == MeshSource::Constructed
+    }
+}
+
 /// Classes of the components of a mesh, and the component of each face.
 #[derive(Debug, Default)]
 pub(crate) struct ComponentClasses {
@@ -97,10 +104,12 @@ impl ComponentClasses {
         if self.of_pieces.len() < 2 { Vec::new() } else { self.pieces.clone() }
     }
 
-    /// How the file shades the components: whether some and whether all are curved by its normals.
+    /// Whether some and whether all components are constructed and shaded.
     pub(crate) fn are_shaded(&self) -> (bool, bool) {
-        let is_curved = |class: &ComponentClass| class.shading == FileShading::Curved;
-        (self.of_pieces.iter().any(is_curved), self.of_pieces.iter().all(is_curved))
+        (
+            self.of_pieces.iter().any(ComponentClass::is_shaded_part),
+            self.of_pieces.iter().all(ComponentClass::is_shaded_part),
+        )
     }
 }
 

@@ -20,15 +20,15 @@ use ligne::scene::{Camera, Scene};
 type ContourLevel = (&'static str, f64, f64);
 
 /// Levels for every third view.
-const QUICK_LEVELS: [ContourLevel; 1] = [("examples/models/knot.ply", 3.9, 97.3)];
+const QUICK_LEVELS: [ContourLevel; 1] = [("examples/models/knot.ply", 5.8, 98.0)];
 
 /// Levels for all views. `examples/…` is in the repository; the others are shared models.
 const NIGHTLY_LEVELS: [ContourLevel; 8] = [
-    ("examples/models/knot.ply", 4.0, 98.2),
-    ("organic/spot.obj", 8.0, 85.0),
-    ("organic/suzanne.obj", 70.1, 71.7),
-    ("organic/cow.obj", 70.0, 80.0),
-    ("organic/stanford-bunny.obj", 30.0, 84.0),
+    ("examples/models/knot.ply", 5.9, 97.8),
+    ("organic/spot.obj", 9.5, 82.5),
+    ("organic/suzanne.obj", 65.1, 69.8),
+    ("organic/cow.obj", 60.1, 75.5),
+    ("organic/stanford-bunny.obj", 36.0, 82.3),
     ("organic/armadillo.obj", 60.0, 80.0),
     ("mechanical/rocker-arm.obj", 20.0, 80.0),
     ("organic/dragon-202k.ply", 60.0, 80.0),
