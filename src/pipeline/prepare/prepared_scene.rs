@@ -52,9 +52,9 @@ impl<'a> Renderer<'a> {
         run_on_pool(|| Self::from_mesh(PreparedMesh::of(scene, style), style, None).0)
     }
 
-    /// Prepares the scene for one camera and a page with the given unit. The surface is refined for it at once and permanently, which takes
-    /// less memory than a refined copy next to the model. The geometry of an owned scene is freed once the mesh
-    /// is built.
+    /// Prepares the scene for one camera and a page with the given unit. The surface is refined for it at once
+    /// and permanently, which takes less memory than a refined copy next to the model. The geometry of an owned
+    /// scene is freed once the mesh is built.
     #[must_use]
     pub(crate) fn for_camera(scene: Cow<'a, Scene>, style: &'a Style, camera: &Camera, unit: Unit) -> Self {
         run_on_pool(|| {

@@ -17,7 +17,8 @@ use ligne::surface::evidence::evidence_layout::patches_by_evidence;
 
 use crate::library::support::measures::line_picture::{SegmentGrid, flatten_path};
 use crate::library::support::pipeline::orthographic;
-use crate::library::support::scenes::solids::{Solid, cuboid};
+use crate::library::support::scenes::round_solids::globe;
+use crate::library::support::scenes::solids::{Solid, cuboid, torus};
 
 /// Radius and half height of the cylinders.
 const SIZE: [f64; 2] = [1.0, 0.8];
@@ -85,12 +86,33 @@ fn normals_of_the_file_decide_what_is_round() {
     }
 }
 
+/// Mesh of a solid whose normals are the means of the faces around each vertex.
+fn averaged(Solid { positions, triangles }: Solid) -> Mesh {
+    let mut sums = vec![DVec3::ZERO; positions.len()];
+    for triangle in &triangles {
+        let [a, b, c] = triangle.map(|v| positions[v as usize]);
+        triangle.iter().for_each(|v| sums[*v as usize] += (b - a).cross(c - a));
+    }
+    let normals = sums.iter().map(|sum| sum.normalize().as_vec3().to_array()).collect();
+    let corner_normals = triangles.clone();
+    Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() })
+}
+
+#[test]
+fn facets_of_curved_surfaces_are_no_chamfers() {
+    // The facets turn by more than 20 degrees and less than 40, and soft edges count half.
+    for (name, solid) in
+        [("globe 5", globe(5)), ("globe 8", globe(8)), ("torus 16x12", torus(16, 12, 1.0, 0.4))]
+    {
+        let found = patches_by_evidence(&mut averaged(solid), 20.0, false);
+        assert_eq!(found.hard.count(), 0, "{name}");
+        assert!(!found.rounded.contains(&false), "{name}");
+    }
+}
+
 #[test]
 fn averaged_normals_make_no_ball_of_a_cube() {
-    let Solid { positions, triangles } = cuboid(DVec3::NEG_ONE, DVec3::ONE);
-    let normals = positions.iter().map(|p| p.normalize().as_vec3().to_array()).collect();
-    let corner_normals = triangles.clone();
-    let mut mesh = Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() });
+    let mut mesh = averaged(cuboid(DVec3::NEG_ONE, DVec3::ONE));
     let found = patches_by_evidence(&mut mesh, 40.0, false);
     assert_eq!(found.hard.count(), 12);
     assert!(!found.rounded.contains(&true));
