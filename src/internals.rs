@@ -111,18 +111,14 @@ pub struct SurfaceDecisions {
 #[must_use]
 pub fn surface_decisions(scene: &crate::scene::Scene, by_evidence: bool) -> SurfaceDecisions {
     use crate::mesh::EdgeFaces;
+    use crate::surface::MeshSource;
     use crate::surface::evidence::evidence_layout::patches_by_evidence;
-    use crate::surface::{MeshSource, Patches};
     use decision_flags::{
         BORDER, CONSTRUCTED, DRAWN, FIGURE, FILLET_CENTRE, HARD, ROUNDED, TRUSTED, TWO_FACES,
     };
     let mut mesh = mesh::Mesh::build(scene.to_soup());
     let crease_deg = crate::lines::LineOptions::default().crease_deg;
-    let patches = if by_evidence {
-        patches_by_evidence(&mut mesh, crease_deg, false)
-    } else {
-        Patches::new(&mesh, crease_deg, false)
-    };
+    let patches = patches_by_evidence(&mut mesh, crease_deg, !by_evidence);
     let flag = |is: bool, flag: u32| if is { flag } else { 0 };
     let edge = |edge: usize| {
         let [a, b] = mesh.edges.vertices[edge];
