@@ -34,8 +34,7 @@ const MAX_FIT_MM: f64 = 0.008;
 const MIN_REFINEMENT_TOLERANCE_PX: f64 = 0.02;
 
 impl ChainOptions {
-    /// Tolerance of refined surfaces, in user units: the tolerance of fitted curves, since a finer surface
-    /// would not show.
+    /// Tolerance of refined surfaces, in user units: the same as that of fitted curves.
     #[must_use]
     pub(crate) fn refinement_tolerance(&self, unit: Unit) -> f64 {
         let least = Length::px(MIN_REFINEMENT_TOLERANCE_PX).in_unit(unit);
@@ -70,5 +69,22 @@ impl Default for ChainOptions {
             fit_tolerance: Length::px(0.15),
             circles: false,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_are_refined_as_exactly_as_curves_are_fitted() {
+        let of = |fit_tolerance: Length, unit: Unit| {
+            ChainOptions { fit_tolerance, ..ChainOptions::default() }.refinement_tolerance(unit)
+        };
+        assert_eq!(of(Length::px(0.5), Unit::Px), 0.5);
+        assert_eq!(of(Length { value: 0.1, unit: Unit::Mm }, Unit::Mm), 0.1);
+        assert_eq!(of(Length::px(0.0), Unit::Px), MIN_REFINEMENT_TOLERANCE_PX);
+        let to_scale = ChainOptions::default().drawn_to_scale();
+        assert_eq!(to_scale.refinement_tolerance(Unit::Mm), MAX_FIT_MM);
     }
 }

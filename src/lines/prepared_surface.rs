@@ -332,6 +332,27 @@ mod tests {
         Mesh::build(soup)
     }
 
+    fn camera() -> Camera {
+        Camera {
+            eye: DVec3::new(3.0, 1.0, 2.0),
+            up: DVec3::Z,
+            target: DVec3::ZERO,
+            projection: Projection::Orthographic { height: 2.5 },
+            width: 1000.0,
+            height: 1000.0,
+            near: None,
+        }
+    }
+
+    #[test]
+    fn a_coarser_tolerance_splits_fewer_faces() {
+        let options = LineOptions { contours: Contours::Smooth, ..LineOptions::default() };
+        let surface = Surface::new(ball(7), &options);
+        let faces = |tolerance: f64| surface.clone().finer_for(&camera(), tolerance).mesh.triangles.len();
+        let [fine, coarse] = [0.04, 0.6].map(faces);
+        assert!(fine > 3 * coarse / 2 && coarse > surface.mesh.triangles.len(), "{fine} {coarse}");
+    }
+
     #[test]
     fn fillet_centre_edges_stay_complete_after_refinement() {
         let options = LineOptions { contours: Contours::Smooth, ..LineOptions::default() };
@@ -344,16 +365,7 @@ mod tests {
         let edges = surface.mesh.edges.len();
         surface.fillet_centres = EdgeSet::collect(edges, |edge| is_level(&surface.mesh, edge));
         assert_eq!(surface.fillet_centres.iter().count(), 16);
-        let camera = Camera {
-            eye: DVec3::new(3.0, 1.0, 2.0),
-            up: DVec3::Z,
-            target: DVec3::ZERO,
-            projection: Projection::Orthographic { height: 2.5 },
-            width: 1000.0,
-            height: 1000.0,
-            near: None,
-        };
-        let finer = surface.finer_for(&camera, 0.04);
+        let finer = surface.finer_for(&camera(), 0.04);
         let mesh = &finer.mesh;
         let place = |v: u32| mesh.positions[v as usize] + mesh.origin;
         let angle = |edge: usize| {

@@ -25,8 +25,8 @@ use crate::parallel::prelude::*;
 use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::tolerances::MIN_STRIP_WIDTH_RATIO;
 
-/// Minimum ratio of the widths of a face and a bevel, at an edge above the crease angle. Neighbouring facets of
-/// curved surfaces differ less (`facets_of_curved_surfaces_are_no_chamfers`).
+/// Minimum ratio of the widths of a face and a bevel, at an edge above the crease angle. Facets of a curved surface
+/// may differ by two to one (`facets_of_curved_surfaces_are_no_chamfers`).
 const MIN_BEVEL_WIDTH_RATIO: f64 = 3.0;
 /// Minimum cosine (1 degree) between the normals of two corners that have a common one.
 const MIN_COMMON_COSINE: f64 = 0.999_85;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind};
-use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::geometry::numbers::portable_math::{acos, cos, sin};
 use ligne::load::ModelFormat;
 use ligne::mesh::{Mesh, Soup};
 use ligne::pipeline::render;
@@ -98,12 +98,25 @@ fn averaged(Solid { positions, triangles }: Solid) -> Mesh {
     Mesh::build(Soup { positions, triangles, normals, corner_normals, ..Soup::default() })
 }
 
+/// A globe whose rings alternate between wide and narrow, two to one.
+fn uneven_globe() -> Solid {
+    let step = TAU / 16.0;
+    globe(8).moved(|p| {
+        let ring = (acos(p.z.clamp(-1.0, 1.0)) / step).round();
+        let from_pole = step * (ring + if ring % 2.0 == 1.0 { 1.0 / 3.0 } else { 0.0 });
+        (p.truncate().normalize_or_zero() * sin(from_pole)).extend(cos(from_pole))
+    })
+}
+
 #[test]
 fn facets_of_curved_surfaces_are_no_chamfers() {
     // The facets turn by more than 20 degrees and less than 40, and soft edges count half.
-    for (name, solid) in
-        [("globe 5", globe(5)), ("globe 8", globe(8)), ("torus 16x12", torus(16, 12, 1.0, 0.4))]
-    {
+    for (name, solid) in [
+        ("globe 5", globe(5)),
+        ("globe 8", globe(8)),
+        ("uneven globe", uneven_globe()),
+        ("torus 16x12", torus(16, 12, 1.0, 0.4)),
+    ] {
         let found = patches_by_evidence(&mut averaged(solid), 20.0, false);
         assert_eq!(found.hard.count(), 0, "{name}");
         assert!(!found.rounded.contains(&false), "{name}");
