@@ -53,6 +53,25 @@ impl EdgeArc {
         Self { ends, normals: [DVec3::ZERO; 2], handles: handles(length, tangents) }
     }
 
+    /// The arc between two points that leaves its chord as the mean of `others` leave theirs. It has no normals.
+    #[must_use]
+    pub(crate) fn beside(ends: [DVec3; 2], others: &[Self]) -> Self {
+        let third = |ends: [DVec3; 2]| (ends[1] - ends[0]) / 3.0;
+        let mean = |of: &dyn Fn(&Self) -> DVec3| others.iter().map(of).sum::<DVec3>() / others.len() as f64;
+        let handles = [
+            third(ends) + mean(&|other| other.handles[0] - third(other.ends)),
+            mean(&|other| other.handles[1] + third(other.ends)) - third(ends),
+        ];
+        Self { ends, normals: [DVec3::ZERO; 2], handles }
+    }
+
+    /// The same curve from its end to its start.
+    #[must_use]
+    pub(crate) fn reversed(&self) -> Self {
+        let swap = |[a, b]: [DVec3; 2]| [b, a];
+        Self { ends: swap(self.ends), normals: swap(self.normals), handles: swap(self.handles) }
+    }
+
     /// The same curve as two arcs, without normals.
     #[must_use]
     pub(crate) fn halves(&self) -> [Self; 2] {
