@@ -21,7 +21,8 @@ pub(crate) struct SmoothNormals {
     /// Smooth vertices at the corners of each face; [`NO_NORMAL`] at all three where the face is flat. One
     /// entry per face, or empty where all faces are flat.
     pub corners: Vec<[u32; 3]>,
-    /// Edges that separate curved surfaces from each other or from flat faces.
+    /// Edges that separate curved surfaces from each other or from flat faces, and borders at vertices where
+    /// surfaces touch.
     pub separating_edges: EdgeSet,
     /// Edges along which the surface is straight, although its normals turn. A straight edge has no arc.
     pub straight: EdgeSet,

@@ -59,8 +59,12 @@ impl SmoothNormals {
         if !rounded.contains(&true) {
             return Self::default();
         }
+        let touching = touching_borders(mesh);
         let parting = EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
-            EdgeFaces::One(_) => false,
+            EdgeFaces::One(face) => {
+                let is_touching = |vertex: &u32| touching.get(*vertex as usize) == Some(&true);
+                rounded[face as usize] && mesh.edges.vertices[edge].iter().any(is_touching)
+            }
             EdgeFaces::Two { faces, same_way } => {
                 let count = faces.iter().filter(|f| rounded[**f as usize]).count();
                 count == 1 || (count == 2 && (same_way || is_hard(edge)))
@@ -86,6 +90,21 @@ impl SmoothNormals {
         vertex_split::part(mesh, &mut smooth);
         smooth
     }
+}
+
+/// Whether surfaces touch at each vertex with their borders, without an edge in common. Empty if none do.
+fn touching_borders(mesh: &Mesh) -> Vec<bool> {
+    let mut borders: Vec<u8> = Vec::new();
+    for edge in 0..mesh.edges.len() {
+        if matches!(mesh.edges.faces(edge), EdgeFaces::One(_)) {
+            borders.resize(mesh.positions.len(), 0);
+            mesh.edges.vertices[edge].iter().for_each(|vertex| {
+                let count = &mut borders[*vertex as usize];
+                *count = count.saturating_add(1);
+            });
+        }
+    }
+    borders.into_iter().map(|count| count > 2).collect()
 }
 
 /// Normal of each vertex, from its adjacent faces with `counts` or from the file.
