@@ -268,7 +268,11 @@ pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> Smooth
     let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
     let mut smooth = SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted);
     if !patches.by_evidence.is_empty() {
-        let is_asked = |edge: usize| patches.by_evidence[mesh.edges.faces(edge).list()[0] as usize];
+        // The normals of figures turn as their shape does.
+        let is_asked = |edge: usize| {
+            let face = mesh.edges.faces(edge).list()[0] as usize;
+            patches.by_evidence[face] && patches.origins[face] == MeshSource::Constructed
+        };
         smooth.straight = smooth.straight.union(&straight_edges::level(mesh, &smooth, is_asked));
     }
     smooth

@@ -78,21 +78,21 @@ impl HardEdges {
         Self::of_edges(mesh, &edges)
     }
 
-    /// Creases as chains, and single edges in calm places, with a weight of at most 1 for the turn of each
-    /// edge.
+    /// Edges of `known`, creases as chains, and single edges in calm places, with a weight of at most 1 for the
+    /// turn of each edge.
     pub(crate) fn find_weighted(
         mesh: &Mesh,
         turns: &DihedralCosines,
         crease_deg: f64,
-        weight: impl Fn(usize) -> f32 + Sync,
+        (known, weight): (&EdgeSet, impl Fn(usize) -> f32 + Sync),
     ) -> Self {
         let folds = weighted_folds(mesh, turns, LOW_THRESHOLD_OF_HIGH * crease_deg, weight);
         let folds = CreaseCandidates::new(mesh, folds);
         let edges = significant_edges(mesh, turns, crease_deg, &folds);
-        let found = EdgeSet::default().with(&edges, mesh.edges.len());
+        let found = known.clone().with(&edges, mesh.edges.len());
         let is_open = |f: &&CreaseCandidate| f.turn > crease_deg as f32 && !found.contains(f.edge as usize);
         let open: Vec<CreaseCandidate> = folds.folds.iter().filter(is_open).copied().collect();
-        let calm = calm_edges(mesh, turns, crease_deg, &open);
+        let calm = calm_edges(mesh, turns, crease_deg, &open, &found);
         Self(found.with(&calm, mesh.edges.len())).with_marks(mesh)
     }
 
@@ -155,10 +155,22 @@ impl HardEdges {
         Self(EdgeSet::collect(mesh.edges.len(), is_hard))
     }
 
-    /// Adds a set of edges, except those that the file marks otherwise.
-    #[must_use]
-    pub(crate) fn with_set(self, mesh: &Mesh, more: &EdgeSet) -> Self {
-        Self(self.0.union(more)).with_marks(mesh)
+    /// Parts the edges that only slivers cause (second result) from the others, among those that satisfy `may`.
+    pub(crate) fn without_slivers(
+        self,
+        mesh: &Mesh,
+        turns: &DihedralCosines,
+        crease_deg: f64,
+        may: impl Fn(usize) -> bool + Sync,
+    ) -> (Self, EdgeSet) {
+        let all: Vec<usize> = self.0.iter().collect();
+        let mut wrinkles = wrinkles(mesh, turns, crease_deg, &all);
+        wrinkles.retain(|edge| may(*edge));
+        if wrinkles.is_empty() {
+            return (self, EdgeSet::default());
+        }
+        let wrinkles = EdgeSet::default().with(&wrinkles, mesh.edges.len());
+        (Self::of(mesh, |edge| self.is_hard(edge) && !wrinkles.contains(edge)), wrinkles)
     }
 
     /// Adds edges of the mesh.

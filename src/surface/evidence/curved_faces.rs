@@ -1,8 +1,8 @@
 //! [`CurvedFaces`]: which faces belong to curved surfaces.
 //!
 //! 1. Where the file shades a component, its normals decide, with split edges and creases as borders.
-//! 2. Elsewhere the normals of the shape decide. Their borders are creases, rims of planar regions and kinks:
-//!    edges next to a flat where the surface ends on both sides instead of going on as a curve.
+//! 2. Elsewhere the normals of the shape decide. Their borders are creases, rims of planar regions, and kinks of
+//!    constructed parts: edges where the surface ends on both sides instead of going on as a curve.
 //! 3. Components that the file shades face by face are not curved.
 
 use super::normal_evidence::NormalEvidence;
@@ -13,7 +13,7 @@ use crate::parallel::task_size::MIN_TASK_ITEMS;
 use crate::surface::creases::low_angle::surface_trace::SurfaceTracer;
 use crate::surface::normals::file_normals::file_normals;
 use crate::surface::patches::planar_regions::PlanarRegions;
-use crate::surface::patches::surface_class::{ComponentClasses, FileShading};
+use crate::surface::patches::surface_class::{ComponentClasses, FileShading, MeshSource};
 use crate::surface::{HardEdges, SmoothNormals};
 
 /// Cosine (1 degree) below which an edge may be a kink.
@@ -44,7 +44,13 @@ impl CurvedFaces<'_> {
             SmoothPatches::new(mesh, is_shaded, normals, parts)
         });
         let is_any_bare = faces.clone().any(is_bare);
-        let kinks = if is_any_bare { self.kinks(is_bare, crease_deg) } else { EdgeSet::default() };
+        // The faces of a scan turn at random.
+        let is_made = |face: u32| {
+            let class = self.classes.class_of_face(face);
+            class.shading == FileShading::None && class.origin == MeshSource::Constructed
+        };
+        let kinks =
+            if faces.clone().any(is_made) { self.kinks(is_made, crease_deg) } else { EdgeSet::default() };
         let borders = rims.union(&kinks);
         let bare = is_any_bare.then(|| {
             let parts = |edge: usize| hard.is_hard(edge) || borders.contains(edge);
@@ -60,14 +66,13 @@ impl CurvedFaces<'_> {
         (faces.map(is_curved).collect(), borders.union(&evidence.split))
     }
 
-    /// Edges between bare faces where the surface ends on both sides. One of the faces must be part of a flat.
+    /// Edges between bare faces where the surface ends on both sides.
     fn kinks(&self, is_bare: impl Fn(u32) -> bool + Sync, crease_deg: f64) -> EdgeSet {
         let Self { mesh, turns, planes, hard, .. } = self;
         let walk = SurfaceTracer::new(mesh, (turns, &planes.flat), hard, crease_deg);
         EdgeSet::collect(mesh.edges.len(), |edge| {
             let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return false };
             turns.of_two(edge) < MAX_KINK_COSINE
-                && faces.iter().any(|face| planes.is_level(*face))
                 && faces.iter().all(|face| is_bare(*face))
                 && !hard.is_hard(edge)
                 && walk.ends_at(edge).is_some()

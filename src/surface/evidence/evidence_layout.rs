@@ -3,8 +3,8 @@
 //!
 //! 1. Where the normals of the file say something, edges are split, soft or neither.
 //! 2. Split edges are creases. Elsewhere chains and single edges above the crease angle are, if they stand out
-//!    from the noise around them; a soft edge counts half, except next to a bevel. Shallow creases of
-//!    constructed parts are added.
+//!    from the noise around them; a soft edge counts half, except next to a bevel. On constructed parts, edges
+//!    that only slivers cause are dropped, and shallow creases added.
 //! 3. Surfaces between creases and other borders are curved if their normals vary, and fine enough.
 
 use super::curved_faces::CurvedFaces;
@@ -84,24 +84,29 @@ fn by_evidence(
     let is_soft = |edge: usize| evidence.soft.contains(edge) && !bevel_edges.contains(edge);
     let weight = |edge: usize| if is_soft(edge) { SOFT_TURN_SHARE } else { 1.0 };
     let (found, rims) = crate::parallel::join(
-        || HardEdges::find_weighted(mesh, turns, crease_deg, weight),
+        || HardEdges::find_weighted(mesh, turns, crease_deg, (&evidence.split, weight)),
         || rims(mesh, turns, planes, (&evidence, classes)),
     );
-    let found = found.with_set(mesh, &evidence.split);
     // The surface is given by its faces, and its lines are intended.
     let is_exact = |face: &u32| {
         let class = classes.class_of_face(*face);
         class.origin == MeshSource::Constructed && class.trusts_file_normals
     };
     let is_exact_at = |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact);
-    let may = |edge: usize| is_exact_at(edge) && !evidence.soft.contains(edge);
+    let (found, sliver_creases) = found
+        .without_slivers(mesh, turns, crease_deg, |edge| is_exact_at(edge) && !evidence.split.contains(edge));
+    let may =
+        |edge: usize| is_exact_at(edge) && !evidence.soft.contains(edge) && !sliver_creases.contains(edge);
     let (shallow, fillet_centres) = crate::parallel::join(
         || shallow_creases(mesh, (turns, &planes.flat), crease_deg, &found, may),
-        || fillet_centres(mesh, (turns, planes), &found, is_exact_at, crease_deg),
+        || {
+            let may = |edge: usize| is_exact_at(edge) && !sliver_creases.contains(edge);
+            fillet_centres(mesh, (turns, planes), &found, may, crease_deg)
+        },
     );
     let hard = found.with(mesh, &shallow);
     let curved = CurvedFaces { mesh, turns, planes, classes, evidence: &evidence, hard: &hard };
-    let (rounded, rims) = curved.find(&rims, crease_deg);
+    let (rounded, rims) = curved.find(&rims.union(&sliver_creases), crease_deg);
     let trusts_file_normals = (0..mesh.triangles.len() as u32)
         .map(|face| match shading(face) {
             FileShading::Curved => evidence.is_believed(face),
@@ -110,7 +115,7 @@ fn by_evidence(
         .collect();
     Patches {
         hard,
-        sliver_creases: EdgeSet::default(),
+        sliver_creases,
         fillet_centres,
         rims,
         rounded,
@@ -123,20 +128,22 @@ fn by_evidence(
     }
 }
 
-/// Borders of planar regions and of wide faces, where the file does not shade the surface.
+/// Borders of planar regions and of wide faces, on figures and where the file does not shade the surface.
 fn rims(
     mesh: &Mesh,
     turns: &DihedralCosines,
     planes: &PlanarRegions,
     (evidence, classes): (&NormalEvidence, &ComponentClasses),
 ) -> EdgeSet {
+    let is_of = |origin: MeshSource| move |face: &u32| classes.class_of_face(*face).origin == origin;
     EdgeSet::collect(mesh.edges.len(), |edge| {
         let cosine = turns.of_two(edge);
         if cosine > MAX_RIM_COSINE {
             return false;
         }
         let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return false };
-        if faces.iter().all(|face| evidence.is_believed(*face)) {
+        let is_believed = |face: &u32| evidence.is_believed(*face);
+        if faces.iter().all(is_believed) && !faces.iter().all(is_of(MeshSource::Modelled)) {
             return false;
         }
         let [first, second] = faces.map(|face| planes.compact(face));
@@ -144,8 +151,7 @@ fn rims(
             return true;
         }
         // Slivers next to wide faces are random on scans.
-        let is_made = |face: &u32| classes.class_of_face(*face).origin == MeshSource::Constructed;
-        cosine < MAX_STRIP_COSINE && faces.iter().all(is_made) && {
+        cosine < MAX_STRIP_COSINE && !faces.iter().any(is_of(MeshSource::Scanned)) && {
             let [a, b] = faces.map(|face| width(mesh, edge, face));
             a.max(b) > MIN_STRIP_WIDTH_RATIO * a.min(b)
         }

@@ -8,6 +8,7 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::lines::{LineKind, LineOptions};
 use ligne::mesh::{DihedralCosines, Mesh, Soup};
 use ligne::surface::Patches;
+use ligne::surface::evidence::evidence_layout::patches_by_evidence;
 
 use crate::library::support::pipeline::{orthographic, run_stages, scene};
 use crate::library::support::scenes::solids::Solid;
@@ -52,15 +53,19 @@ fn mesh(solid: Solid) -> Mesh {
     Mesh::build(Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() })
 }
 
-/// Returns the number of crease edges where the tapered end begins.
+/// Returns the number of crease edges where the tapered end begins, by statistics and by evidence.
 fn count_creases_at_the_taper(solid: Solid) -> usize {
-    let mesh = mesh(solid);
-    let hard = Patches::new(&mesh, 40.0, false).hard;
+    let mut mesh = mesh(solid);
+    let of_both = [Patches::new(&mesh, 40.0, false), patches_by_evidence(&mut mesh, 40.0, false)];
     let is_there = |edge: &usize| {
         let ends = mesh.edges.vertices[*edge].map(|v| (mesh.positions[v as usize] + mesh.origin).z);
         ends.iter().all(|z| (1.9..2.1).contains(z))
     };
-    (0..mesh.edges.len()).filter(|edge| hard.is_hard(*edge)).filter(is_there).count()
+    let [by_statistics, by_evidence] = of_both.map(|patches| {
+        (0..mesh.edges.len()).filter(|edge| patches.hard.is_hard(*edge)).filter(is_there).count()
+    });
+    assert_eq!(by_statistics, by_evidence);
+    by_evidence
 }
 
 #[test]

@@ -8,7 +8,7 @@ use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind};
 use ligne::geometry::numbers::portable_math::{acos, cos, sin};
 use ligne::load::ModelFormat;
-use ligne::mesh::{Mesh, Soup};
+use ligne::mesh::{DihedralCosines, Mesh, Soup};
 use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
@@ -132,6 +132,26 @@ fn averaged_normals_make_no_ball_of_a_cube() {
 }
 
 #[test]
+fn a_single_sharp_edge_inside_a_figure_is_no_crease() {
+    // Next to it the surface hardly turns.
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bear.ply");
+    let mut mesh = Mesh::build(Scene::open(path).expect("a model").to_soup());
+    let turns = DihedralCosines::of(&mesh);
+    let sharp = (0..mesh.edges.len()).filter(|edge| turns.of_two(*edge) < 0.76).count();
+    assert!(sharp > 10, "{sharp} edges above 40 degrees");
+    let found = patches_by_evidence(&mut mesh, 40.0, false);
+    assert_eq!(found.hard.count(), 0);
+}
+
+#[test]
+fn flat_sheets_that_touch_stay_flat() {
+    // Four sheets in one plane around a vertex; two of them face the other way.
+    let sheets = "v 0 0 0\nv 1 0.1 0\nv 1 1 0\nv 0.1 1 0\nv -1 0.1 0\nv -1 1 0\nv -0.1 1 0\n\
+        v -1 -0.1 0\nv -1 -1 0\nv -0.1 -1 0\nf 1 2 3 4\nf 1 5 6 7\nf 1 8 9 10\n";
+    assert!(!patches(sheets).1.rounded.contains(&true));
+}
+
+#[test]
 fn a_cylinder_without_normals_is_round_and_a_roof_is_not() {
     let bare = |text: String| -> String {
         let lines = text.lines().filter(|line| !line.starts_with("vn"));
@@ -183,6 +203,48 @@ fn rims_of_coarse_cylinders_are_circles() {
         let polygon = off(&["lines.surfaces=evidence", "lines.round_rims=off"]);
         let rise = SIZE[0] * (1.0 - cos(TAU / 2.0 / f64::from(sides))) * camera.height / 3.0;
         assert!(polygon > 0.5 * rise, "{sides} sides: {polygon} px");
+    }
+}
+
+/// OBJ text of a ring along z, with the coordinates of a file with `decimals`.
+fn ring(sides: u32, decimals: usize) -> String {
+    let [radius, half] = SIZE;
+    let mut text = String::new();
+    for k in 0..sides {
+        let turn = 0.37 + TAU * f64::from(k) / f64::from(sides);
+        for (r, z) in [(radius, -half), (radius, half), (0.6 * radius, -half), (0.6 * radius, half)] {
+            text += &format!("v {:.decimals$} {:.decimals$} {z}\n", r * cos(turn), r * sin(turn));
+        }
+    }
+    for k in 0..sides {
+        let [i, j] = [4 * k + 1, 4 * ((k + 1) % sides) + 1];
+        for [a, b, c, d] in [
+            [i, j, j + 1, i + 1],
+            [j + 2, i + 2, i + 3, j + 3],
+            [i + 1, j + 1, j + 3, i + 3],
+            [j, i, i + 2, j + 2],
+        ] {
+            text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn cylinders_seen_along_their_axis_are_circles() {
+    for height in [2.5, 3.0, 4.0, 7.0, 20.0] {
+        let camera = orthographic(DVec3::new(0.0, 0.0, 7.0), DVec3::ZERO, height);
+        for sides in [9, 10, 12, 15, 16, 18, 24, 36, 48] {
+            let lines = |text: &str| {
+                let drawing = drawn(text, &camera, &["lines.surfaces=evidence"]);
+                let lines = drawing.layers.into_iter().filter(|layer| layer.kind == LayerKind::Lines);
+                lines.map(|layer| layer.marks.len()).sum::<usize>()
+            };
+            assert_eq!(lines(&cylinder(sides, true)), 1, "a cylinder of {sides} sides, {height}");
+            for decimals in [4, 17] {
+                assert_eq!(lines(&ring(sides, decimals)), 2, "a ring of {sides} sides, {height}");
+            }
+        }
     }
 }
 
