@@ -65,6 +65,15 @@ impl EdgeArc {
         Self { ends, normals: [DVec3::ZERO; 2], handles }
     }
 
+    /// Whether the arc leaves its chord at both ends by the same angle, as that of a circle does. `max_ratio` is
+    /// the largest ratio of the two.
+    #[must_use]
+    pub(crate) fn is_even(&self, max_ratio: f64) -> bool {
+        let along = (self.ends[1] - self.ends[0]).normalize_or_zero();
+        let [a, b] = self.handles.map(|handle| handle.cross(along).length() / handle.length());
+        a.max(b) <= max_ratio * a.min(b)
+    }
+
     /// The same curve from its end to its start.
     #[must_use]
     pub(crate) fn reversed(&self) -> Self {

@@ -13,7 +13,7 @@ const MAX_TURN_DEG: f64 = 49.5;
 /// Smallest turn at a corner, degrees.
 const MIN_TURN_DEG: f64 = 1.0;
 /// Largest ratio of the lengths of two edges next to each other, and of the turns at their ends.
-const MAX_EVEN_RATIO: f64 = 1.1;
+pub(super) const MAX_EVEN_RATIO: f64 = 1.1;
 /// Minimum number of edges of a closed run.
 const MIN_CLOSED_EDGES: usize = 8;
 /// Minimum number of edges of an open run. Three even corners in a row are no chance.

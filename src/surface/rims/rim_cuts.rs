@@ -1,6 +1,6 @@
 //! [`rim_cuts`]: halves the edges of rims along their arcs, and cuts the faces next to them.
 //!
-//! A facet of a cylinder or cone has a rim, a straight side and a diagonal. Its diagonal is halved with the rim, and
+//! A facet of a round cylinder or cone has a rim, a straight side and a diagonal. Its diagonal is halved with the rim, and
 //! leaves its chord as the rim does. The new edges then run straight from rim to rim, and no piece of the wall
 //! sticks out over the rim where the wall is seen edge-on.
 
@@ -8,10 +8,10 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::even_runs::EvenRuns;
+use super::even_runs::{EvenRuns, MAX_EVEN_RATIO};
 use super::rim_arcs::{has_room, rim_arc};
 use crate::mesh::edges::triangle_sides::sides;
-use crate::mesh::{EdgeMark, Mesh};
+use crate::mesh::{EdgeFaces, EdgeMark, Mesh};
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 use crate::surface::refine::mesh_splice::{KeptFaces, MeshCuts, PieceTriangle};
 use crate::surface::{EdgeArc, SmoothNormals};
@@ -176,10 +176,13 @@ impl<'a> RimCuts<'a> {
         Some(self.side(self.mesh.edges.vertices[edge], *arc, halvings, Some(edge as u32)))
     }
 
-    /// The diagonal of a face whose rim is `side`: of its other sides, the one that rises too far, if there is
-    /// just one.
+    /// The diagonal of a face whose rim is `side`, if this turns evenly: of its other sides, the one that rises
+    /// too far, if there is just one.
     fn diagonal(&self, face: u32, side: usize, rise_limit: &impl Fn(DVec3) -> f64) -> Option<Diagonal> {
         let ArcSide { ends, arc, halvings, .. } = self.arcs[side];
+        if !arc.is_even(MAX_EVEN_RATIO) {
+            return None;
+        }
         let (apex, corners) = (self.mesh.apex(face, ends)?, self.smooth.corners_of(face)?);
         let triangle = self.mesh.triangles[face as usize];
         let corner = |v: u32| Some(corners[triangle.iter().position(|own| *own == v)?]);
@@ -188,7 +191,9 @@ impl<'a> RimCuts<'a> {
             let edge = self.mesh.edges.between(apex, end)?;
             let normals = [corner(apex)?, corner(end)?].map(|corner| self.smooth.normals[corner as usize]);
             let own = EdgeArc::new([apex, end].map(|v| self.mesh.positions[v as usize]), normals);
-            let is_free = !self.smooth.separating_edges.contains(edge);
+            // Other edges may be rims.
+            let is_free = matches!(self.mesh.edges.faces(edge), EdgeFaces::Two { .. })
+                && !self.smooth.separating_edges.contains(edge);
             Some((edge, is_free && own.height().length() > rise_limit(own.at(0.5))))
         };
         let (edge, beside, end) = match [rises(ends[0])?, rises(ends[1])?] {
